@@ -60,8 +60,6 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
   connect(&session_, &Session::devicesChanged, this, [this] {
     // Whoever has asked to stop does not wait for a camera that has gone.
     if (isStopping()) session_.giveUpCamera();
-    // Somebody has come in: no light flashes until the room is clear again.
-    if (isMeasuring() && !isPaused() && !isStopping() && !session_.mayMeasure()) pause();
     tellSettings();
   });
   connect(&job_, &Job::progressed, this, &AcquirePage::tellProgress);
@@ -384,7 +382,10 @@ void AcquirePage::lookAtResponse() {
 void AcquirePage::start(bool anew) {
   if (isMeasuring() || !session_.areDevicesFree() || !session_.mayMeasure()) return;
   anew_ = anew;
-  lease_ = session_.leaseDevices(stepName, DeviceWork::measurement);
+  lease_ = session_.leaseDevices(stepName, DeviceWork::measurement, [this] {
+    if (isCountingDown()) return stay();
+    if (isMeasuring() && !isPaused() && !isStopping()) pause();
+  });
   if (secondsToLeave_ == 0 || !session_.hasLight()) return begin();
   secondsLeftToLeave_ = secondsToLeave_;
   leaving_.start();

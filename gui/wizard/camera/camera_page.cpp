@@ -415,7 +415,11 @@ void CameraPage::start() {
   shared_ = std::make_shared<Shared>();
   cameras_.resize(std::max(cameras_.size(), cameras()));
   for (const Watched& camera : cameras_) shared_->cameras.push_back({.area = camera.area});
-  lease_ = session_.leaseDevices(stepName, DeviceWork::light);
+  lease_ = session_.leaseDevices(stepName, DeviceWork::light, [this] {
+    if (!isChecking_) return;  // the light that follows the checks stands still
+    startsAgain_ = true;
+    finish();
+  });
   job_.start([this, shared = shared_, work = workOf(session_), settings = session_.settings().acquisition,
               unit = exposureUnit()](Progress& progress) {
     Progress opening = progress.part(0.1, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));

@@ -45,11 +45,7 @@ LinearizePage::LinearizePage(Session& session, QObject* parent)
     look();
     tellAll();
   });
-  connect(&session_, &Session::devicesChanged, this, [this] {
-    // Somebody has come in: no light flashes until the room is clear again.
-    if (isMeasuring() && !session_.mayMeasure()) finish();
-    tellSettings();
-  });
+  connect(&session_, &Session::devicesChanged, this, &LinearizePage::tellSettings);
   connect(&job_, &Job::progressed, this, &LinearizePage::tellProgress);
   connect(&job_, &Job::ended, this, &LinearizePage::ended);
   connect(&room_, &RoomQuestion::changed, this, &LinearizePage::tellStatus);
@@ -208,7 +204,7 @@ void LinearizePage::keepLevels(int levels) {
 
 void LinearizePage::measure(bool again) {
   if (isMeasuring() || !session_.areDevicesFree() || !session_.mayMeasure()) return;
-  lease_ = session_.leaseDevices(stepName, DeviceWork::measurement);
+  lease_ = session_.leaseDevices(stepName, DeviceWork::measurement, [this] { finish(); });
   begunAt_ = photographsOf(session_);
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again, room = &room_](Progress& progress) {

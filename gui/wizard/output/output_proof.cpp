@@ -36,6 +36,11 @@ std::shared_ptr<Proof> proofOf(pipeline::ProveResult figures, const fs::path& fo
   return proof;
 }
 
+/// By a dozen patterns one after the other, where a photograph needs a few pictures that stand.
+bool flashes(OutputProof::Work work) {
+  return work == OutputProof::Work::drift || work == OutputProof::Work::repair;
+}
+
 }  // namespace
 
 struct OutputProof::Found {
@@ -136,7 +141,9 @@ void OutputProof::cameraPushedBack() {
 
 void OutputProof::start(Work work, Job::Work job) {
   work_ = work;
-  lease_ = session_.leaseDevices(step_, work == Work::report ? DeviceWork::brief : DeviceWork::light);
+  lease_ = session_.leaseDevices(step_, work == Work::report ? DeviceWork::brief : DeviceWork::light, [this] {
+    if (flashes(work_)) cancel();
+  });
   job_.start(std::move(job));
   Q_EMIT changed();
 }

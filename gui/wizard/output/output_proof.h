@@ -92,6 +92,7 @@ class OutputProof : public QObject {
   /// reported() names the first.
   void report(const QString& picture);
   void cancel() { job_.cancel(); }
+  bool isStopping() const { return job_.isStopping(); }
 
  Q_SIGNALS:
   /// What is proved, or whether it is being proved.

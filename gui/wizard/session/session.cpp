@@ -431,8 +431,7 @@ void Session::wantAcquisition() {
 
 void Session::setFlashLimit(int changesPerSecond) {
   flashLimit_ = changesPerSecond;
-  slowDown();
-  Q_EMIT devicesChanged();
+  consentChanged();
 }
 
 void Session::slowDown() {
@@ -444,7 +443,14 @@ void Session::slowDown() {
 
 void Session::setRoomClear(bool clear) {
   roomClear_ = clear;
+  consentChanged();
+}
+
+void Session::consentChanged() {
   slowDown();
+  // Somebody has come in, or is about to. Copied: ending the lease drops it.
+  const auto unclear = whenUnclear_;
+  if (unclear && !mayMeasure()) unclear();
   Q_EMIT devicesChanged();
 }
 
@@ -458,10 +464,11 @@ void Session::setShowing(bool showing) {
   Q_EMIT devicesChanged();
 }
 
-DeviceLease Session::leaseDevices(const StepName& step, DeviceWork work) {
+DeviceLease Session::leaseDevices(const StepName& step, DeviceWork work, std::function<void()> whenUnclear) {
   require(areDevicesFree(), "the devices are in use");
   devicesUser_ = step;
   deviceWork_ = work;
+  whenUnclear_ = std::move(whenUnclear);
   if (devices_) devices_->patience().wait();
   silence_.start();
   Q_EMIT devicesChanged();
@@ -491,6 +498,7 @@ void Session::giveUpCamera() {
 
 void Session::takeBackDevices() {
   devicesUser_.reset();
+  whenUnclear_ = nullptr;
   silence_.stop();
   silentCamera_.reset();
   cameraFailure_.clear();

@@ -312,7 +312,9 @@ class Session : public QObject {
   /// In the language of the moment; empty: nobody uses them.
   QString devicesUserName() const { return devicesUser_ ? devicesUser_->text() : QString(); }
   /// For `step`, until the lease ends. Contract: areDevicesFree().
-  DeviceLease leaseDevices(const StepName& step, DeviceWork work = DeviceWork::brief);
+  ///   whenUnclear  pauses or ends work that flashes light: called when mayMeasure() turns false meanwhile
+  DeviceLease leaseDevices(const StepName& step, DeviceWork work = DeviceWork::brief,
+                           std::function<void()> whenUnclear = {});
   /// Light of a step stands on the projectors, before whatever else does.
   bool isProjecting() const { return devicesUser_ && deviceWork_ != DeviceWork::brief; }
   /// Work under way that takes long and is not to be ended by the way.
@@ -360,6 +362,7 @@ class Session : public QObject {
   void changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write);
   void adopt(calibration::CalibrationFolder given);
   void slowDown();
+  void consentChanged();
   void makeDevices();
   void keepSurprises(const std::filesystem::path& path);
   void takeBackDevices();
@@ -384,6 +387,7 @@ class Session : public QObject {
   std::optional<Failure> readFailure_;
   std::optional<StepName> devicesUser_;
   DeviceWork deviceWork_ = DeviceWork::brief;
+  std::function<void()> whenUnclear_;  // of who uses them; empty: nothing of that flashes
   bool isShowing_ = false;
   int flashLimit_ = 0;
   bool roomClear_ = false;

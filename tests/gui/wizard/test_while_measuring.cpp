@@ -4,6 +4,7 @@
 #include <QtTest>
 
 #include "gui/wizard/simulated_session.h"
+#include "output/default_picture.h"
 #include "relucent/calibration/results.h"
 #include "views/number_text.h"
 #include "wizard/acquire/acquire_page.h"
@@ -12,6 +13,7 @@
 #include "wizard/frame/step_rail.h"
 #include "wizard/frame/wizard.h"
 #include "wizard/linearize/linearize_page.h"
+#include "wizard/output/output_proof.h"
 #include "wizard/preview/preview_page.h"
 #include "wizard/threshold/threshold_page.h"
 #include "wizard/venue/venue_page.h"
@@ -377,6 +379,47 @@ class TestWhileMeasuring : public QObject {
     // Stopped is stopped: the consent that is still there begins nothing.
     session_->setRoomClear(true);
     QVERIFY(!camera.isLooking());
+  }
+
+  /// Law: who takes the consent back ends the checks; they wait for it again.
+  void checksEndWithTheConsent() {
+    own_->begin(scriptedVenue("true {image}", "sleep 8 # {exposure} {output}"));
+    session_->setRoomClear(true);
+    CameraPage camera(*session_);
+    camera.enter();
+    QVERIFY(camera.isChecking());
+    session_->setRoomClear(false);
+    QTRY_VERIFY_WITH_TIMEOUT(!camera.isLooking() && session_->areDevicesFree(), 2'000);
+    QVERIFY(camera.hasRemedy());
+    QCOMPARE(camera.hint(), session_->whyNoPatterns());
+    session_->setRoomClear(true);
+    QVERIFY(camera.isChecking());
+    camera.leave();
+  }
+
+  /// Law: whatever flashes ends when the room is no longer clear, at whichever page; what needs a few
+  /// pictures that stand does not.
+  void lightEndsWithTheConsent_data() {
+    QTest::addColumn<OutputProof::Work>("work");
+    QTest::addColumn<bool>("ends");
+    QTest::newRow("check for drift") << OutputProof::Work::drift << true;
+    QTest::newRow("repair") << OutputProof::Work::repair << true;
+    QTest::newRow("photograph") << OutputProof::Work::photograph << false;
+  }
+  void lightEndsWithTheConsent() {
+    QFETCH(OutputProof::Work, work);
+    QFETCH(bool, ends);
+    own_->begin(scriptedVenue("true {image}", "sleep 8 # {exposure} {output}"));
+    session_->setRoomClear(true);
+    OutputProof proof(*session_, CameraPage::stepName);
+    if (work == OutputProof::Work::drift) proof.checkDrift();
+    if (work == OutputProof::Work::repair) proof.startRepair(defaultPicture());
+    if (work == OutputProof::Work::photograph) proof.photograph(defaultPicture(), {});
+    QCOMPARE(proof.work(), work);
+    session_->setRoomClear(false);
+    QCOMPARE(proof.isStopping(), ends);
+    proof.cancel();
+    QTRY_VERIFY_WITH_TIMEOUT(session_->areDevicesFree(), 2'000);
   }
 
   /// Law: a photograph that does not come is said before anything fails.

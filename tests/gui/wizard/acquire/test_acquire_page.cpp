@@ -67,7 +67,12 @@ class TestAcquirePage : public QObject {
     page.primary()->trigger();
     QVERIFY(!page.isCountingDown());
     QTRY_COMPARE_WITH_TIMEOUT(measured.size(), 1, patience);
-    // Going elsewhere calls it off.
+    // Whoever comes in meanwhile calls it off, and so does going elsewhere.
+    page.primary()->trigger();
+    QVERIFY(page.isCountingDown());
+    session_->setRoomClear(false);
+    QVERIFY(!page.isCountingDown() && session_->areDevicesFree());
+    session_->setRoomClear(true);
     page.primary()->trigger();
     QVERIFY(page.isCountingDown());
     session_->close();

@@ -13,6 +13,21 @@
     </message>
 </context>
 <context>
+    <name>ContentFiles</name>
+    <message>
+        <source>Pictures and films</source>
+        <translation>Bilder und Filme</translation>
+    </message>
+    <message>
+        <source>Pictures</source>
+        <translation>Bilder</translation>
+    </message>
+    <message>
+        <source>All files</source>
+        <translation>Alle Dateien</translation>
+    </message>
+</context>
+<context>
     <name>DeviceLabel</name>
     <message>
         <source>Projector %1</source>
@@ -6843,10 +6858,6 @@ Projektor %2</translation>
     <message>
         <source>Choose a picture</source>
         <translation>Bild wählen</translation>
-    </message>
-    <message>
-        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
-        <translation>Bilder (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
     </message>
     <message>
         <source>Fit</source>

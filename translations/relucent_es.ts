@@ -13,6 +13,21 @@
     </message>
 </context>
 <context>
+    <name>ContentFiles</name>
+    <message>
+        <source>Pictures and films</source>
+        <translation>Imágenes y vídeos</translation>
+    </message>
+    <message>
+        <source>Pictures</source>
+        <translation>Imágenes</translation>
+    </message>
+    <message>
+        <source>All files</source>
+        <translation>Todos los archivos</translation>
+    </message>
+</context>
+<context>
     <name>DeviceLabel</name>
     <message>
         <source>Projector %1</source>
@@ -6843,10 +6858,6 @@ proyector %2</translation>
     <message>
         <source>Choose a picture</source>
         <translation>Elegir una imagen</translation>
-    </message>
-    <message>
-        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
-        <translation>Imágenes (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
     </message>
     <message>
         <source>Fit</source>

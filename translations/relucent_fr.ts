@@ -13,6 +13,21 @@
     </message>
 </context>
 <context>
+    <name>ContentFiles</name>
+    <message>
+        <source>Pictures and films</source>
+        <translation>Images et vidéos</translation>
+    </message>
+    <message>
+        <source>Pictures</source>
+        <translation>Images</translation>
+    </message>
+    <message>
+        <source>All files</source>
+        <translation>Tous les fichiers</translation>
+    </message>
+</context>
+<context>
     <name>DeviceLabel</name>
     <message>
         <source>Projector %1</source>
@@ -6843,10 +6858,6 @@ projecteur %2</translation>
     <message>
         <source>Choose a picture</source>
         <translation>Choisir une image</translation>
-    </message>
-    <message>
-        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
-        <translation>Images (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
     </message>
     <message>
         <source>Fit</source>

@@ -13,6 +13,21 @@
     </message>
 </context>
 <context>
+    <name>ContentFiles</name>
+    <message>
+        <source>Pictures and films</source>
+        <translation>Immagini e filmati</translation>
+    </message>
+    <message>
+        <source>Pictures</source>
+        <translation>Immagini</translation>
+    </message>
+    <message>
+        <source>All files</source>
+        <translation>Tutti i file</translation>
+    </message>
+</context>
+<context>
     <name>DeviceLabel</name>
     <message>
         <source>Projector %1</source>
@@ -6843,10 +6858,6 @@ proiettore %2</translation>
     <message>
         <source>Choose a picture</source>
         <translation>Scegli un’immagine</translation>
-    </message>
-    <message>
-        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
-        <translation>Immagini (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
     </message>
     <message>
         <source>Fit</source>

@@ -13,6 +13,21 @@
     </message>
 </context>
 <context>
+    <name>ContentFiles</name>
+    <message>
+        <source>Pictures and films</source>
+        <translation>画像と動画</translation>
+    </message>
+    <message>
+        <source>Pictures</source>
+        <translation>画像</translation>
+    </message>
+    <message>
+        <source>All files</source>
+        <translation>すべてのファイル</translation>
+    </message>
+</context>
+<context>
     <name>DeviceLabel</name>
     <message>
         <source>Projector %1</source>
@@ -6804,10 +6819,6 @@ projector %2</source>
     <message>
         <source>Choose a picture</source>
         <translation>画像を選択</translation>
-    </message>
-    <message>
-        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
-        <translation>画像 (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
     </message>
     <message>
         <source>Fit</source>

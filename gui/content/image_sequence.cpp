@@ -57,10 +57,16 @@ std::optional<ContentTime> ImageSequence::length() const {
   return ContentTime(std::llround(1e6 * static_cast<double>(files_.count()) / picturesPerSecond_));
 }
 
+const QStringList& pictureEndings() {
+  static const QStringList endings{"png", "jpg", "jpeg", "tif", "tiff", "exr", "bmp", "webp"};
+  return endings;
+}
+
 QStringList picturesIn(const QString& folder) {
   QDir directory(folder);
-  QStringList names = directory.entryList(
-      {"*.png", "*.jpg", "*.jpeg", "*.tif", "*.tiff", "*.exr", "*.bmp", "*.webp"}, QDir::Files);
+  QStringList patterns;
+  for (const QString& ending : pictureEndings()) patterns << "*." + ending;
+  QStringList names = directory.entryList(patterns, QDir::Files);
   if (names.isEmpty())
     throw Error(ErrorKind::input, RELUCENT_MESSAGE("content.no-pictures", "no pictures in this folder"),
                 RELUCENT_MESSAGE("content.choose-picture-folder",

@@ -22,6 +22,8 @@ class ImageSequence : public ContentSource {
   ContentPicture frame_;
 };
 
+/// Extensions of pictures: "png".
+const QStringList& pictureEndings();
 /// The pictures of a folder in the natural order of their names: 9 before 10.
 /// Throws: Error{input} if it holds none.
 QStringList picturesIn(const QString& folder);

@@ -55,10 +55,14 @@ void Video::show(const FrameSlot::Newest& newest) {
     picture_ = {onCanvas(pictureOf(newest.frame, newest.jpeg), canvas_), newest.number};
 }
 
-bool isVideo(const QString& file) {
+const QStringList& filmEndings() {
   static const QStringList endings{"mp4", "m4v", "mov",  "mkv", "webm", "avi", "mpg",  "mpeg",
                                    "ts",  "mts", "m2ts", "wmv", "ogv",  "mxf", "mjpeg"};
-  return endings.contains(QFileInfo(file).suffix().toLower());
+  return endings;
+}
+
+bool isVideo(const QString& file) {
+  return filmEndings().contains(QFileInfo(file).suffix().toLower());
 }
 
 }  // namespace relucent::gui

@@ -33,7 +33,9 @@ class Video : public ContentSource {
   ContentPicture picture_;  // of the frame of the same number
 };
 
-/// Whether a file's name has the extension of a film.
+/// Extensions of films: "mp4".
+const QStringList& filmEndings();
+/// Whether a file's name has one of them.
 bool isVideo(const QString& file);
 
 }  // namespace relucent::gui

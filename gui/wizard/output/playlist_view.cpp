@@ -4,7 +4,6 @@
 #include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QDropEvent>
-#include <QFileDialog>
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QMimeData>
@@ -20,6 +19,7 @@
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
+#include "wizard/frame/content_files.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/output/output_page.h"
 #include "wizard/output/screen_menu.h"
@@ -237,7 +237,7 @@ QWidget* playlistPart(OutputPage& page) {
   column->addWidget(trouble);
 
   QObject::connect(add, &QPushButton::clicked, &page, [&page, part] {
-    page.addFiles(QFileDialog::getOpenFileNames(part, OutputPage::tr("Add pictures or films")));
+    page.addFiles(askForFiles(part, OutputPage::tr("Add pictures or films"), ContentFiles::picturesAndFilms));
   });
   QObject::connect(stream, &QPushButton::clicked, &page, [&page, part] { askForStream(page, part); });
   auto move = [&page, list](int by) {

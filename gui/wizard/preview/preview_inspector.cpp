@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/preview/preview_inspector.h"
 
-#include <QFileDialog>
 #include <algorithm>
 
 #include "theme/action_button.h"
@@ -9,6 +8,7 @@
 #include "theme/theme.h"
 #include "views/number_text.h"
 #include "wizard/devices/perfecting_part.h"
+#include "wizard/frame/content_files.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/preview/light_part.h"
 #include "wizard/preview/mask_part.h"
@@ -84,9 +84,7 @@ QWidget* previewInspector(PreviewPage& page) {
   column->addStretch(1);
 
   QObject::connect(change, &QPushButton::clicked, &page, [&page, card] {
-    QString file =
-        QFileDialog::getOpenFileName(card, PreviewPage::tr("Choose a picture"), {},
-                                     PreviewPage::tr("Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)"));
+    const QString file = askForFile(card, PreviewPage::tr("Choose a picture"), ContentFiles::pictures);
     if (!file.isEmpty()) page.choosePicture(file);
   });
   QObject::connect(automatic, &QPushButton::clicked, &page, &PreviewPage::placeAutomatically);

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The playlist beside what plays it. On two screens, see tests/support/with-two-screens.
 #include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QPushButton>
+#include <QSettings>
+#include <QStandardPaths>
 #include <QTemporaryDir>
+#include <QTimer>
 #include <QtTest>
 
 #include "gui/output/two_screens.h"
@@ -26,6 +31,9 @@ class TestPlaylistView : public QObject {
     image.fill(Qt::gray);
     const QString path = folder_.filePath(name);
     return image.save(path) ? path : QString();
+  }
+  QString ownFolder(const QString& name) const {
+    return QDir(folder_.path()).mkpath(name) ? folder_.filePath(name) : QString();
   }
   void play(const QStringList& files) {
     page_->addFiles(files);
@@ -91,6 +99,39 @@ class TestPlaylistView : public QObject {
     QCOMPARE(seconds(1), PlaylistItem().seconds);
     list()->setCurrentRow(0);
     QVERIFY(time()->isEnabled());
+  }
+
+  /// Nobody looks for a film among the program's own files: it begins with the user's, and then where the
+  /// last one was.
+  void filesAreLookedForWhereTheLastOneWas() {
+    const QString file = picture("third.png");
+    const QStringList begins{ownFolder("pictures"), folder_.path()};
+    qputenv("XDG_CONFIG_HOME", ownFolder("config").toUtf8());
+    QFile places(ownFolder("config") + "/user-dirs.dirs");
+    QVERIFY(places.open(QIODevice::WriteOnly));
+    places.write("XDG_PICTURES_DIR=\"" + begins.first().toUtf8() + "\"\n");
+    places.close();
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, ownFolder("config"));
+    for (const QString& begin : begins) {
+      bool isAsked = false;
+      QTimer::singleShot(0, this, [&] {
+        auto* dialog = qobject_cast<QFileDialog*>(qApp->activeModalWidget());
+        isAsked = dialog != nullptr;
+        if (!isAsked) return;
+        QCOMPARE(dialog->directory().path(), begin);
+        const QStringList kinds = dialog->nameFilters();
+        QCOMPARE(kinds.size(), 2);
+        for (const char* ending : {"*.png", "*.exr", "*.mp4"})
+          QVERIFY2(kinds.first().contains(ending), ending);
+        QVERIFY(kinds.last().endsWith("(*)"));
+        dialog->setDirectory(folder_.path());
+        dialog->selectFile(file);
+        static_cast<QDialog*>(dialog)->accept();
+      });
+      part_->findChild<QPushButton*>("playlist-add")->click();
+      QVERIFY(isAsked);
+      QCOMPARE(page_->playlist().settings().items.last().path, file);
+    }
   }
 
   void whatIsSkippedIsMarked() {

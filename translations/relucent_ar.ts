@@ -6783,6 +6783,22 @@ projector %2</source>
         <source>Choose a picture: only pictures stand.</source>
         <translation>اختر صورة: الصور وحدها تبقى مدة محددة.</translation>
     </message>
+    <message>
+        <source>Photographed %1.</source>
+        <translation>التُقطت في ⁨%1⁩.</translation>
+    </message>
+    <message>
+        <source>Photographed %1, before the last check for drift.</source>
+        <translation>التُقطت في ⁨%1⁩، قبل آخر فحص للانحراف.</translation>
+    </message>
+    <message>
+        <source>The surface looked as predicted then</source>
+        <translation>كان السطح يبدو حينها كما هو متوقّع</translation>
+    </message>
+    <message>
+        <source>Checked %1.</source>
+        <translation>فُحص في ⁨%1⁩.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6635,6 +6635,22 @@ Projektor %2</translation>
         <source>Choose a picture: only pictures stand.</source>
         <translation>Wählen Sie ein Bild: Nur Bilder stehen.</translation>
     </message>
+    <message>
+        <source>Photographed %1.</source>
+        <translation>Fotografiert %1.</translation>
+    </message>
+    <message>
+        <source>Photographed %1, before the last check for drift.</source>
+        <translation>Fotografiert %1, vor der letzten Prüfung auf Drift.</translation>
+    </message>
+    <message>
+        <source>The surface looked as predicted then</source>
+        <translation>Die Oberfläche sah damals aus wie vorhergesagt</translation>
+    </message>
+    <message>
+        <source>Checked %1.</source>
+        <translation>Geprüft %1.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6635,6 +6635,22 @@ proyector %2</translation>
         <source>Choose a picture: only pictures stand.</source>
         <translation>Elija una imagen: solo las imágenes permanecen.</translation>
     </message>
+    <message>
+        <source>Photographed %1.</source>
+        <translation>Fotografiada: %1.</translation>
+    </message>
+    <message>
+        <source>Photographed %1, before the last check for drift.</source>
+        <translation>Fotografiada: %1, antes de la última comprobación de deriva.</translation>
+    </message>
+    <message>
+        <source>The surface looked as predicted then</source>
+        <translation>La superficie se veía entonces según lo previsto</translation>
+    </message>
+    <message>
+        <source>Checked %1.</source>
+        <translation>Comprobado: %1.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

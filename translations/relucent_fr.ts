@@ -6635,6 +6635,22 @@ projecteur %2</translation>
         <source>Choose a picture: only pictures stand.</source>
         <translation>Choisissez une image : seules les images ont une durée.</translation>
     </message>
+    <message>
+        <source>Photographed %1.</source>
+        <translation>Photographiée : %1.</translation>
+    </message>
+    <message>
+        <source>Photographed %1, before the last check for drift.</source>
+        <translation>Photographiée : %1, avant la dernière recherche de dérive.</translation>
+    </message>
+    <message>
+        <source>The surface looked as predicted then</source>
+        <translation>La surface avait alors l’aspect prévu</translation>
+    </message>
+    <message>
+        <source>Checked %1.</source>
+        <translation>Vérifié : %1.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6635,6 +6635,22 @@ proiettore %2</translation>
         <source>Choose a picture: only pictures stand.</source>
         <translation>Scegliere un’immagine: solo le immagini hanno una durata.</translation>
     </message>
+    <message>
+        <source>Photographed %1.</source>
+        <translation>Fotografata: %1.</translation>
+    </message>
+    <message>
+        <source>Photographed %1, before the last check for drift.</source>
+        <translation>Fotografata: %1, prima dell’ultimo controllo della deriva.</translation>
+    </message>
+    <message>
+        <source>The surface looked as predicted then</source>
+        <translation>La superficie appariva allora come previsto</translation>
+    </message>
+    <message>
+        <source>Checked %1.</source>
+        <translation>Controllato: %1.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

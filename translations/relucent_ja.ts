@@ -6598,6 +6598,22 @@ projector %2</source>
         <source>Choose a picture: only pictures stand.</source>
         <translation>画像を選んでください。時間を決められるのは画像だけです。</translation>
     </message>
+    <message>
+        <source>Photographed %1.</source>
+        <translation>撮影：%1。</translation>
+    </message>
+    <message>
+        <source>Photographed %1, before the last check for drift.</source>
+        <translation>撮影：%1、前回のドリフト確認より前。</translation>
+    </message>
+    <message>
+        <source>The surface looked as predicted then</source>
+        <translation>その時点では、投影面は予測どおりに見えました</translation>
+    </message>
+    <message>
+        <source>Checked %1.</source>
+        <translation>確認：%1。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6598,6 +6598,22 @@ projector %2</source>
         <source>Choose a picture: only pictures stand.</source>
         <translation>请选择图片：只有图片可设显示时间。</translation>
     </message>
+    <message>
+        <source>Photographed %1.</source>
+        <translation>拍摄于 %1。</translation>
+    </message>
+    <message>
+        <source>Photographed %1, before the last check for drift.</source>
+        <translation>拍摄于 %1，早于最近一次漂移检查。</translation>
+    </message>
+    <message>
+        <source>The surface looked as predicted then</source>
+        <translation>当时表面与预测相符</translation>
+    </message>
+    <message>
+        <source>Checked %1.</source>
+        <translation>检查于 %1。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

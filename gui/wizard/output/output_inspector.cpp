@@ -2,7 +2,9 @@
 #include "wizard/output/output_inspector.h"
 
 #include <QComboBox>
+#include <QDateTime>
 #include <QDir>
+#include <QLocale>
 #include <cmath>
 
 #include "theme/action_button.h"
@@ -55,6 +57,10 @@ QComboBox* screenBox(OutputPage& page) {
   refreshOn(page, box, refresh, &OutputPage::settingsChanged);
   QObject::connect(&page, &OutputPage::remedyWanted, box, [box] { pointOut(box); });
   return box;
+}
+
+QString timeText(const QDateTime& when) {
+  return QLocale().toString(when, QLocale::ShortFormat);
 }
 
 QString errorLine(const QString& what, const pipeline::ProvedProjection& projection) {
@@ -111,12 +117,20 @@ void showProof(Remark& remark, const OutputPage& page) {
     return remark.show(Remark::Kind::watch, OutputPage::tr("The camera is back at its place"),
                        OutputPage::tr("Take the photograph again: the last one was taken before."));
   const pipeline::ProvedView figures = proof->figuresOf(page.camera());
-  QString meaning = errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
-                    errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
-                    OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));
+  const pipeline::DriftRecord* drift = page.proof().newestDrift();
+  const bool isDoubted = drift != nullptr && drift->verdict != acquisition::Verdict::stillGood;
+  const QString when = timeText(proof->taken);
+  QString meaning =
+      (drift == nullptr ? OutputPage::tr("Photographed %1.").arg(when)
+                        : OutputPage::tr("Photographed %1, before the last check for drift.").arg(when)) +
+      '\n' + errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
+      errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
+      OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));
   if (const QString views = viewsLine(*proof); !views.isEmpty()) meaning = views + '\n' + meaning;
   const std::optional<std::size_t> differs = pipeline::viewThatDiffers(proof->figures);
-  if (proof->isAsPredicted() && pipeline::isPlainToSee(proof->figures))
+  if (proof->isAsPredicted() && isDoubted)
+    remark.show(Remark::Kind::watch, OutputPage::tr("The surface looked as predicted then"), meaning);
+  else if (proof->isAsPredicted() && pipeline::isPlainToSee(proof->figures))
     remark.show(Remark::Kind::watch, OutputPage::tr("As predicted, but errors are plain to see"),
                 meaning + '\n' + reasonOf(page, figures.reachable));
   else if (proof->isAsPredicted())
@@ -141,7 +155,10 @@ void showProof(Remark& remark, const OutputPage& page) {
 void showDrift(Remark& remark, const pipeline::DriftRecord* drift, bool hasMoved) {
   remark.setVisible(drift != nullptr);
   if (drift == nullptr) return;
+  const QDateTime checked =
+      QDateTime::fromString(QString::fromStdString(drift->checked), Qt::ISODate).toLocalTime();
   QString meaning =
+      OutputPage::tr("Checked %1.").arg(timeText(checked)) + '\n' +
       OutputPage::tr("Error of the test patterns: %1, when measured %2. %3 of the view changed.")
           .arg(percentText(drift->error), percentText(drift->errorThen), percentText(drift->changedShare));
   if (hasMoved && drift->verdict != acquisition::Verdict::stillGood)

@@ -2,6 +2,7 @@
 // What Output says of the show is what is on the projector. On two screens, see
 // tests/support/with-two-screens: DUMMY1 is the projector's.
 #include <QComboBox>
+#include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -20,6 +21,7 @@
 #include "relucent/pipeline/settings_json.h"
 #include "support/stream_sender.h"
 #include "views/image_view.h"
+#include "wizard/output/output_inspector.h"
 #include "wizard/output/output_page.h"
 #include "wizard/output/output_view.h"
 #include "wizard/output/playlist_view.h"
@@ -317,6 +319,34 @@ class TestWhatPlays : public QObject {
       QVERIFY(!page_->hint().contains("Nothing is projected"));
     }
     QTRY_VERIFY(says("Nothing is projected"));
+  }
+
+  /// Law: a photograph from before a check that found a change is no praise beside it, and both say when they
+  /// were taken.
+  void whatWasProvedBeforeIsMarked() {
+    const std::unique_ptr<QWidget> inspector(outputInspector(*page_));
+    const auto said = [&](const char* remark) {
+      QStringList texts;
+      for (const QLabel* label : inspector->findChild<QWidget*>(remark)->findChildren<QLabel*>())
+        texts << label->text();
+      return texts.join('\n');
+    };
+    openOutput();
+    page_->verify();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().proof() && isIdle(), patience);
+    QVERIFY(page_->proof().proof()->isAsPredicted());
+    const QString praise = OutputPage::tr("The surface looks as predicted");
+    const QString taken = QLocale().toString(page_->proof().proof()->taken, QLocale::ShortFormat);
+    QVERIFY2(said("proof-remark").contains(taken), qPrintable(said("proof-remark")));
+    becomes([](venue::Changes& changes) { changes.painted.push_back({{0.45, 0.5}, 0.3}); });
+    page_->checkDrift();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().newestDrift() != nullptr && isIdle(), patience);
+    QVERIFY(page_->proof().drift()->verdict == acquisition::Verdict::remeasure);
+    QVERIFY2(!said("proof-remark").contains(praise), qPrintable(said("proof-remark")));
+    QVERIFY2(said("proof-remark")
+                 .contains(OutputPage::tr("Photographed %1, before the last check for drift.").arg(taken)),
+             qPrintable(said("proof-remark")));
+    QVERIFY2(said("drift-remark").contains("Checked "), qPrintable(said("drift-remark")));
   }
 
   /// Law: while patterns stand on the projectors, no part of the window says that nothing does; the rail says

@@ -6312,10 +6312,6 @@ projector %2</source>
         <translation>أرقام فوق الصورة (O)</translation>
     </message>
     <message>
-        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
-        <translation>أبقِ A مضغوطًا للأصل، المسافة تجمّد، B يسوّد، T يعرض لوحات الاختبار، O الأرقام.</translation>
-    </message>
-    <message>
         <source>The devices are in use at %1.</source>
         <translation>الأجهزة مستخدمة في خطوة «%1».</translation>
     </message>
@@ -6798,6 +6794,10 @@ projector %2</source>
     <message>
         <source>Checked %1.</source>
         <translation>فُحص في ⁨%1⁩.</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>أبقِ A مضغوطًا للأصل، Ctrl+P يجمّد، B يسوّد، T يعرض لوحات الاختبار، O الأرقام.</translation>
     </message>
 </context>
 <context>

@@ -6164,10 +6164,6 @@ Projektor %2</translation>
         <translation>Zahlen über dem Bild (O)</translation>
     </message>
     <message>
-        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
-        <translation>A halten für das Original, Leertaste hält an, B macht schwarz, T zeigt Testbilder, O Zahlen.</translation>
-    </message>
-    <message>
         <source>The devices are in use at %1.</source>
         <translation>Die Seite „%1“ nutzt die Geräte.</translation>
     </message>
@@ -6650,6 +6646,10 @@ Projektor %2</translation>
     <message>
         <source>Checked %1.</source>
         <translation>Geprüft %1.</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>A halten für das Original, Strg+P hält an, B macht schwarz, T zeigt Testbilder, O Zahlen.</translation>
     </message>
 </context>
 <context>

@@ -6164,10 +6164,6 @@ proyector %2</translation>
         <translation>Cifras sobre la imagen (O)</translation>
     </message>
     <message>
-        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
-        <translation>Mantenga A para ver el original, espacio congela, B lo pone en negro, T muestra cartas de prueba, O cifras.</translation>
-    </message>
-    <message>
         <source>The devices are in use at %1.</source>
         <translation>Los dispositivos están en uso en %1.</translation>
     </message>
@@ -6650,6 +6646,10 @@ proyector %2</translation>
     <message>
         <source>Checked %1.</source>
         <translation>Comprobado: %1.</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>Mantenga A para ver el original, Ctrl+P congela, B lo pone en negro, T muestra cartas de prueba, O cifras.</translation>
     </message>
 </context>
 <context>

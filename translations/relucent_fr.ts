@@ -6164,10 +6164,6 @@ projecteur %2</translation>
         <translation>Chiffres sur l’image (O)</translation>
     </message>
     <message>
-        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
-        <translation>Maintenez A pour l’original, espace fige, B met en noir, T affiche des mires, O des chiffres.</translation>
-    </message>
-    <message>
         <source>The devices are in use at %1.</source>
         <translation>Appareils utilisés à l’étape «&#x202f;%1&#x202f;».</translation>
     </message>
@@ -6650,6 +6646,10 @@ projecteur %2</translation>
     <message>
         <source>Checked %1.</source>
         <translation>Vérifié : %1.</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>Maintenez A pour l’original, Ctrl+P fige, B met en noir, T affiche des mires, O des chiffres.</translation>
     </message>
 </context>
 <context>

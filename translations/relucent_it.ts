@@ -6164,10 +6164,6 @@ proiettore %2</translation>
         <translation>Cifre sull’immagine (O)</translation>
     </message>
     <message>
-        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
-        <translation>Tenere A per l’originale, spazio ferma, B rende nero, T mostra carte di test, O cifre.</translation>
-    </message>
-    <message>
         <source>The devices are in use at %1.</source>
         <translation>I dispositivi sono in uso nel passo %1.</translation>
     </message>
@@ -6650,6 +6646,10 @@ proiettore %2</translation>
     <message>
         <source>Checked %1.</source>
         <translation>Controllato: %1.</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>Tenere A per l’originale, Ctrl+P ferma, B rende nero, T mostra carte di test, O cifre.</translation>
     </message>
 </context>
 <context>

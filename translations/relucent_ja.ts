@@ -6127,10 +6127,6 @@ projector %2</source>
         <translation>映像に数値を重ねる (O)</translation>
     </message>
     <message>
-        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
-        <translation>A を押している間は元の映像、スペースで静止、B で黒、T でテストチャート、O で数値。</translation>
-    </message>
-    <message>
         <source>The devices are in use at %1.</source>
         <translation>機器は「%1」で使用中です。</translation>
     </message>
@@ -6613,6 +6609,10 @@ projector %2</source>
     <message>
         <source>Checked %1.</source>
         <translation>確認：%1。</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>A を押している間は元の映像、Ctrl+P で静止、B で黒、T でテストチャート、O で数値。</translation>
     </message>
 </context>
 <context>

@@ -6127,10 +6127,6 @@ projector %2</source>
         <translation>在画面上显示数值 (O)</translation>
     </message>
     <message>
-        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
-        <translation>按住 A 显示原图，空格定格，B 变黑，T 显示测试图卡，O 显示数值。</translation>
-    </message>
-    <message>
         <source>The devices are in use at %1.</source>
         <translation>设备正由“%1”使用。</translation>
     </message>
@@ -6613,6 +6609,10 @@ projector %2</source>
     <message>
         <source>Checked %1.</source>
         <translation>检查于 %1。</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>按住 A 显示原图，Ctrl+P 定格，B 变黑，T 显示测试图卡，O 显示数值。</translation>
     </message>
 </context>
 <context>

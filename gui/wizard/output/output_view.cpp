@@ -254,7 +254,7 @@ class OutputStage : public QWidget {
     output_->setObjectName("output-view");
     output_->setAccessibleName(OutputPage::tr("What the projector shows"));
     output_->setAccessibleDescription(
-        OutputPage::tr("Hold A for the original, space freezes, B makes it black, T shows test charts, O "
+        OutputPage::tr("Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O "
                        "figures."));
     output_->setToolTip(output_->accessibleDescription());
     projector_->body()->addWidget(output_, 1);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/devices/identify_overlay.h"
 
+#include <QFontMetrics>
 #include <QGuiApplication>
 #include <QPainter>
 #include <QRasterWindow>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "output/screen_identity.h"
@@ -30,6 +32,9 @@ void drawLines(QPainter& painter, QPoint place, int width, int side) {
   }
 }
 
+/// How far inside the edge its lines are, pixels.
+constexpr std::array frame{0, 10, 20};
+
 /// What one screen shows, in its own pixels.
 class ScreenCard : public QRasterWindow {
  public:
@@ -54,14 +59,19 @@ class ScreenCard : public QRasterWindow {
     painter.fillRect(QRect(QPoint(), size_), Qt::black);
     painter.setPen(QPen(dark.accent, 1));
     // The outermost pixels, and every tenth within: what is missing is cut off.
-    for (int inset : {0, 10, 20})
+    for (int inset : frame)
       painter.drawRect(QRect(QPoint(inset, inset), size_ - QSize(2 * inset + 1, 2 * inset + 1)));
-    int unit = size_.height() / 24;
-    auto write = [&](double top, int pixels, int weight, const QColor& colour, const QString& text) {
-      painter.setFont(typeOf(std::max(8, pixels), weight));
+    // Upright screens have room for it too.
+    const int unit = std::min(size_.height(), size_.width()) / 24;
+    const int top = (size_.height() - 24 * unit) / 2, widest = size_.width() - 2 * (frame.back() + unit);
+    auto write = [&](double row, int pixels, int weight, const QColor& colour, const QString& text) {
+      QFont font = typeOf(std::max(8, pixels), weight);
+      if (const int width = QFontMetrics(font).horizontalAdvance(text); width > widest)
+        font.setPixelSize(std::max(1, font.pixelSize() * widest / width));
+      painter.setFont(font);
       painter.setPen(colour);
-      painter.drawText(QRectF(0, top * unit, size_.width(), 2.0 * pixels), Qt::AlignHCenter | Qt::AlignTop,
-                       text);
+      painter.drawText(QRectF(0, top + row * unit, size_.width(), 2.0 * pixels),
+                       Qt::AlignHCenter | Qt::AlignTop, text);
     };
     write(3, 10 * unit, QFont::DemiBold, dark.accent, QString::number(number_));
     write(14.5, 2 * unit, QFont::DemiBold, dark.text, title_);
@@ -71,7 +81,7 @@ class ScreenCard : public QRasterWindow {
     painter.setPen(dark.secondary);
     int side = 2 * unit & ~7, group = 3 * side, left = (size_.width() - 3 * group + group / 4) / 2;
     for (int width : {1, 2, 4}) {
-      drawLines(painter, {left, static_cast<int>(18.8 * unit)}, width, side);
+      drawLines(painter, {left, top + static_cast<int>(18.8 * unit)}, width, side);
       left += group;
     }
   }

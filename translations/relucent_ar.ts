@@ -4001,6 +4001,22 @@
         <source>Waiting, about %1 left</source>
         <translation>في الانتظار، بقي نحو ⁨%1⁩</translation>
     </message>
+    <message>
+        <source>Keep the new ones</source>
+        <translation>الاحتفاظ بالجديدة</translation>
+    </message>
+    <message>
+        <source>Keep the earlier measurement?</source>
+        <translation>الاحتفاظ بالقياس السابق؟</translation>
+    </message>
+    <message>
+        <source>The new photographs are set aside and not used again: measuring again then takes every photograph again.</source>
+        <translation>تُنحّى اللقطات الجديدة جانبًا ولا تُستخدم مجددًا: وإعادة القياس تعيد عندئذ التقاط كل اللقطات.</translation>
+    </message>
+    <message>
+        <source>The earlier measurement, and all that followed from it.</source>
+        <translation>القياس السابق وكل ما ترتّب عليه.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

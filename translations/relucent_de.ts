@@ -3909,6 +3909,22 @@
         <source>Waiting, about %1 left</source>
         <translation>Wartet, noch etwa %1</translation>
     </message>
+    <message>
+        <source>Keep the new ones</source>
+        <translation>Neue behalten</translation>
+    </message>
+    <message>
+        <source>Keep the earlier measurement?</source>
+        <translation>Frühere Messung behalten?</translation>
+    </message>
+    <message>
+        <source>The new photographs are set aside and not used again: measuring again then takes every photograph again.</source>
+        <translation>Die neuen Fotos werden beiseitegelegt und nicht wieder verwendet: Erneutes Messen nimmt dann jedes Foto neu auf.</translation>
+    </message>
+    <message>
+        <source>The earlier measurement, and all that followed from it.</source>
+        <translation>Die frühere Messung und alles, was daraus folgte.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

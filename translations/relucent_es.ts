@@ -3909,6 +3909,22 @@
         <source>Waiting, about %1 left</source>
         <translation>En espera, quedan aprox. %1</translation>
     </message>
+    <message>
+        <source>Keep the new ones</source>
+        <translation>Conservar las nuevas</translation>
+    </message>
+    <message>
+        <source>Keep the earlier measurement?</source>
+        <translation>¿Conservar la medición anterior?</translation>
+    </message>
+    <message>
+        <source>The new photographs are set aside and not used again: measuring again then takes every photograph again.</source>
+        <translation>Las fotografías nuevas se apartan y no se vuelven a usar: medir de nuevo repite entonces todas las fotografías.</translation>
+    </message>
+    <message>
+        <source>The earlier measurement, and all that followed from it.</source>
+        <translation>La medición anterior y todo lo que siguió de ella.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

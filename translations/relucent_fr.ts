@@ -3909,6 +3909,22 @@
         <source>Waiting, about %1 left</source>
         <translation>En attente, encore %1 environ</translation>
     </message>
+    <message>
+        <source>Keep the new ones</source>
+        <translation>Garder les nouvelles</translation>
+    </message>
+    <message>
+        <source>Keep the earlier measurement?</source>
+        <translation>Garder la mesure précédente ?</translation>
+    </message>
+    <message>
+        <source>The new photographs are set aside and not used again: measuring again then takes every photograph again.</source>
+        <translation>Les nouvelles photos sont mises de côté et ne servent plus : remesurer reprend alors toutes les photos.</translation>
+    </message>
+    <message>
+        <source>The earlier measurement, and all that followed from it.</source>
+        <translation>La mesure précédente et tout ce qui en a découlé.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -3909,6 +3909,22 @@
         <source>Waiting, about %1 left</source>
         <translation>In attesa, ancora circa %1</translation>
     </message>
+    <message>
+        <source>Keep the new ones</source>
+        <translation>Tieni le nuove</translation>
+    </message>
+    <message>
+        <source>Keep the earlier measurement?</source>
+        <translation>Tenere la misura precedente?</translation>
+    </message>
+    <message>
+        <source>The new photographs are set aside and not used again: measuring again then takes every photograph again.</source>
+        <translation>Le nuove foto vengono messe da parte e non si usano più: misurare di nuovo scatta allora di nuovo ogni foto.</translation>
+    </message>
+    <message>
+        <source>The earlier measurement, and all that followed from it.</source>
+        <translation>La misura precedente e tutto ciò che ne è seguito.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

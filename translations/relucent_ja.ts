@@ -3886,6 +3886,22 @@
         <source>Waiting, about %1 left</source>
         <translation>待機中、残り約 %1</translation>
     </message>
+    <message>
+        <source>Keep the new ones</source>
+        <translation>新しい写真を残す</translation>
+    </message>
+    <message>
+        <source>Keep the earlier measurement?</source>
+        <translation>前の測定に戻しますか？</translation>
+    </message>
+    <message>
+        <source>The new photographs are set aside and not used again: measuring again then takes every photograph again.</source>
+        <translation>新しい写真は別に移され、もう使われません。再測定では、すべての写真を撮り直します。</translation>
+    </message>
+    <message>
+        <source>The earlier measurement, and all that followed from it.</source>
+        <translation>前の測定と、そこから得られたものすべて。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -3886,6 +3886,22 @@
         <source>Waiting, about %1 left</source>
         <translation>等待中，剩余约 %1</translation>
     </message>
+    <message>
+        <source>Keep the new ones</source>
+        <translation>保留新的</translation>
+    </message>
+    <message>
+        <source>Keep the earlier measurement?</source>
+        <translation>保留之前的测量？</translation>
+    </message>
+    <message>
+        <source>The new photographs are set aside and not used again: measuring again then takes every photograph again.</source>
+        <translation>新照片将移到一边，不再使用：重新测量时会重拍所有照片。</translation>
+    </message>
+    <message>
+        <source>The earlier measurement, and all that followed from it.</source>
+        <translation>之前的测量及其后续的全部结果。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

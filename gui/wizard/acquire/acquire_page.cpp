@@ -90,7 +90,9 @@ void AcquirePage::makeCommands() {
   resume_ = addCommand(Icon::play, [this] { resume(); }, QKeySequence("Ctrl+P"));
   keep_ = addCommand(Icon::save, [this] { stopAndKeep(); }, QKeySequence("Ctrl+K"));
   measureAnew_ = addCommand(Icon::retry, [this] { start(true); });
-  return_ = addCommand(Icon::back, [this] { returnToEarlier(); });
+  return_ = addCommand(Icon::back, [this] { askToReturn(); });
+  returnNow_ = addCommand(Icon::back, [this] { returnToEarlier(); });
+  stayWithNew_ = addCommand(Icon::save, [this] { returning_.reset(); });
   goOnMeasuring_ = addCommand(Icon::play, begins);
   goOnWithDisk_ = addCommand(Icon::play, [this] { room_.goOn(); });
   retryAlarm_ = answering(Icon::retry, sentinels::Answer::retry);
@@ -456,6 +458,7 @@ void AcquirePage::ended() {
   trace_.end();
   std::optional<Failure> unread;
   if (session_.isOpen()) {
+  returning_.reset();
     unread = session_.readAgain();
     countKept();
   }

@@ -161,8 +161,10 @@ class AcquirePage : public DevicePage {
   void pause();
   void resume();
   void stopAndKeep();
-  /// The earlier measurement is the one again; what was photographed since is set aside.
+  /// The earlier measurement is the one again; what was photographed since is set aside, and not used again.
   void returnToEarlier();
+  /// The same, once somebody has said that it may be lost.
+  void askToReturn();
 
   /// The surface in full light before the camera moved, with which an alarm waits; empty: nobody knows.
   const image::Image& viewBefore() const { return viewBefore_; }
@@ -220,6 +222,7 @@ class AcquirePage : public DevicePage {
   void recallTrace();
 
   PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_, *measureAnew_, *return_;
+  PageCommand *returnNow_, *stayWithNew_;                                     // of its question
   PageCommand* goOnWithDisk_;                                                 // of the banner too
   PageCommand* goOnMeasuring_;                                                // of the banner
   PageCommand* answer_;                                                       // of the banner
@@ -264,6 +267,7 @@ class AcquirePage : public DevicePage {
   bool sound_ = true;
   std::optional<sentinels::Alarm> alarm_;  // the last
   std::unique_ptr<QObject> asking_;        // about it
+  std::unique_ptr<QObject> returning_;     // asks whether what is new may go
   image::Image viewBefore_;
   RoomQuestion room_;
   bool diskWasFull_ = false;

@@ -132,7 +132,27 @@ void AcquirePage::stopAndKeep() {
   resume();
 }
 
+void AcquirePage::askToReturn() {
+  // What has ended is a result, of which nothing is under way.
+  if (!isMeasuring() && again_ == 0) return returnToEarlier();
+  returnNow_->show(tr("Keep the earlier one"));
+  stayWithNew_->show(tr("Keep the new ones"));
+  returning_ = std::make_unique<QObject>();
+  FailureReport question;
+  question.failure.heading = tr("Keep the earlier measurement?");
+  question.failure.what =
+      tr("The new photographs are set aside and not used again: measuring again then takes every photograph "
+         "again.");
+  question.safe = tr("The earlier measurement, and all that followed from it.");
+  question.resume = stayWithNew_;
+  question.goOn = returnNow_;
+  question.isQuestion = true;
+  question.reason = returning_.get();
+  Q_EMIT failed(question);
+}
+
 void AcquirePage::returnToEarlier() {
+  returning_.reset();
   if (isMeasuring()) {
     returns_ = true;
     job_.cancel();

@@ -447,6 +447,8 @@ class TestAcceptanceWalk : public QObject {
     QVERIFY(!program_->holdsPicture("output-view"));
     TRY_DO(program_->click(step(4)));
     TRY_DO(program_->clickText("Keep the earlier one"));
+    TRY_SEEN(seen.dialog() == "Keep the earlier measurement?");
+    TRY_DO(program_->clickText("Keep the earlier one"));
     TRY_SEEN(seen.part(step(8)).more == "Playing");
     TRY_DO(program_->click(step(8)));
     TRY_SEEN(seen.part("banner-sentence").text.isEmpty() && seen.part("primary").isEnabled);

@@ -328,7 +328,8 @@ class TestWhileMeasuring : public QObject {
     QVERIFY(banner && banner->kind == Banner::Kind::amber && banner->sentence.contains("out of date"));
   }
 
-  /// Law: measuring again is taken back as a whole: the earlier result stands, and what followed from it.
+  /// Law: measuring again is taken back as a whole, once somebody has said so who knows that the new
+  /// photographs are lost by it: the earlier result stands, and what followed from it.
   void measuringAgainIsTakenBack() {
     own_->begin();
     AcquirePage acquire(*session_);
@@ -354,7 +355,16 @@ class TestWhileMeasuring : public QObject {
         QCOMPARE(acquire.status().state, StepState::outOfDate);
         QCOMPARE(threshold.status().state, StepState::outOfDate);
       }
+      QSignalSpy asked(&acquire, &PageModel::failed);
       commandNamed(back)->trigger();
+      QCOMPARE(asked.size(), 1);
+      const auto question = asked.front().front().value<FailureReport>();
+      QVERIFY(question.isQuestion && question.reason);
+      QVERIFY(isMeasuring ? acquire.isMeasuring() : acquire.photographsOfNew() > 0);
+      question.resume->trigger();
+      QVERIFY(!question.reason && commandNamed(back)->isEnabled());
+      commandNamed(back)->trigger();
+      asked.back().front().value<FailureReport>().goOn->trigger();
       QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
       QCOMPARE(acquire.status().state, StepState::done);
       QCOMPARE(threshold.status().state, StepState::done);

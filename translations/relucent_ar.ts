@@ -6672,18 +6672,6 @@ projector %2</source>
         <translation>لا يوجد سطح مكتب يمكن عرض شاشاته.</translation>
     </message>
     <message>
-        <source>The report is written, but no program here opens it.</source>
-        <translation>كُتب التقرير، لكن لا يوجد هنا برنامج يفتحه.</translation>
-    </message>
-    <message>
-        <source>Open it by hand, or take it to another computer: %1</source>
-        <translation>افتحه يدويًا، أو انقله إلى حاسوب آخر: ⁨%1⁩</translation>
-    </message>
-    <message>
-        <source>The report cannot be shown</source>
-        <translation>يتعذّر عرض التقرير</translation>
-    </message>
-    <message>
         <source>The camera is back at its place</source>
         <translation>عادت الكاميرا إلى موضعها</translation>
     </message>
@@ -6814,6 +6802,10 @@ projector %2</source>
     <message>
         <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>أبقِ A مضغوطًا للأصل، Ctrl+P يجمّد، B يسوّد، T يعرض لوحات الاختبار، O الأرقام.</translation>
+    </message>
+    <message>
+        <source>No program here opens it: open it by hand, or take it to another computer.</source>
+        <translation>لا يوجد هنا برنامج يفتحه: افتحه يدويًا، أو انقله إلى حاسوب آخر.</translation>
     </message>
 </context>
 <context>

@@ -6524,18 +6524,6 @@ Projektor %2</translation>
         <translation>Es gibt keinen Desktop, dessen Bildschirme gezeigt werden könnten.</translation>
     </message>
     <message>
-        <source>The report is written, but no program here opens it.</source>
-        <translation>Der Bericht ist geschrieben, aber kein Programm hier öffnet ihn.</translation>
-    </message>
-    <message>
-        <source>Open it by hand, or take it to another computer: %1</source>
-        <translation>Öffnen Sie ihn von Hand, oder nehmen Sie ihn auf einen anderen Computer mit: %1</translation>
-    </message>
-    <message>
-        <source>The report cannot be shown</source>
-        <translation>Der Bericht kann nicht gezeigt werden</translation>
-    </message>
-    <message>
         <source>The camera is back at its place</source>
         <translation>Die Kamera steht wieder an ihrem Platz</translation>
     </message>
@@ -6666,6 +6654,10 @@ Projektor %2</translation>
     <message>
         <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>A halten für das Original, Strg+P hält an, B macht schwarz, T zeigt Testbilder, O Zahlen.</translation>
+    </message>
+    <message>
+        <source>No program here opens it: open it by hand, or take it to another computer.</source>
+        <translation>Kein Programm hier öffnet ihn: Öffnen Sie ihn von Hand, oder nehmen Sie ihn auf einen anderen Computer mit.</translation>
     </message>
 </context>
 <context>

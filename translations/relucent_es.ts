@@ -6524,18 +6524,6 @@ proyector %2</translation>
         <translation>No hay ningún escritorio cuyas pantallas se puedan mostrar.</translation>
     </message>
     <message>
-        <source>The report is written, but no program here opens it.</source>
-        <translation>El informe está escrito, pero ningún programa de aquí lo abre.</translation>
-    </message>
-    <message>
-        <source>Open it by hand, or take it to another computer: %1</source>
-        <translation>Ábralo a mano o llévelo a otro ordenador: %1</translation>
-    </message>
-    <message>
-        <source>The report cannot be shown</source>
-        <translation>No se puede mostrar el informe</translation>
-    </message>
-    <message>
         <source>The camera is back at its place</source>
         <translation>La cámara vuelve a estar en su sitio</translation>
     </message>
@@ -6666,6 +6654,10 @@ proyector %2</translation>
     <message>
         <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>Mantenga A para ver el original, Ctrl+P congela, B lo pone en negro, T muestra cartas de prueba, O cifras.</translation>
+    </message>
+    <message>
+        <source>No program here opens it: open it by hand, or take it to another computer.</source>
+        <translation>Ningún programa de aquí lo abre: ábralo a mano o llévelo a otro ordenador.</translation>
     </message>
 </context>
 <context>

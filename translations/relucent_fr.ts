@@ -6524,18 +6524,6 @@ projecteur %2</translation>
         <translation>Il n’y a pas de bureau dont les écrans pourraient être montrés.</translation>
     </message>
     <message>
-        <source>The report is written, but no program here opens it.</source>
-        <translation>Le rapport est écrit, mais aucun programme d’ici ne l’ouvre.</translation>
-    </message>
-    <message>
-        <source>Open it by hand, or take it to another computer: %1</source>
-        <translation>Ouvrez-le à la main, ou emportez-le sur un autre ordinateur : %1</translation>
-    </message>
-    <message>
-        <source>The report cannot be shown</source>
-        <translation>Le rapport ne peut pas être affiché</translation>
-    </message>
-    <message>
         <source>The camera is back at its place</source>
         <translation>La caméra est revenue à sa place</translation>
     </message>
@@ -6666,6 +6654,10 @@ projecteur %2</translation>
     <message>
         <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>Maintenez A pour l’original, Ctrl+P fige, B met en noir, T affiche des mires, O des chiffres.</translation>
+    </message>
+    <message>
+        <source>No program here opens it: open it by hand, or take it to another computer.</source>
+        <translation>Aucun programme d’ici ne l’ouvre : ouvrez-le à la main, ou emportez-le sur un autre ordinateur.</translation>
     </message>
 </context>
 <context>

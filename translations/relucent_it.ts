@@ -6524,18 +6524,6 @@ proiettore %2</translation>
         <translation>Non c’è alcun desktop i cui schermi si possano mostrare.</translation>
     </message>
     <message>
-        <source>The report is written, but no program here opens it.</source>
-        <translation>Il rapporto è scritto, ma nessun programma qui lo apre.</translation>
-    </message>
-    <message>
-        <source>Open it by hand, or take it to another computer: %1</source>
-        <translation>Aprirlo a mano, o portarlo su un altro computer: %1</translation>
-    </message>
-    <message>
-        <source>The report cannot be shown</source>
-        <translation>Impossibile mostrare il rapporto</translation>
-    </message>
-    <message>
         <source>The camera is back at its place</source>
         <translation>La fotocamera è di nuovo al suo posto</translation>
     </message>
@@ -6666,6 +6654,10 @@ proiettore %2</translation>
     <message>
         <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>Tenere A per l’originale, Ctrl+P ferma, B rende nero, T mostra carte di test, O cifre.</translation>
+    </message>
+    <message>
+        <source>No program here opens it: open it by hand, or take it to another computer.</source>
+        <translation>Nessun programma qui lo apre: aprirlo a mano, o portarlo su un altro computer.</translation>
     </message>
 </context>
 <context>

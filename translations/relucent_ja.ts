@@ -6487,18 +6487,6 @@ projector %2</source>
         <translation>画面を表示できるデスクトップがありません。</translation>
     </message>
     <message>
-        <source>The report is written, but no program here opens it.</source>
-        <translation>レポートは書き込まれましたが、開けるプログラムがここにありません。</translation>
-    </message>
-    <message>
-        <source>Open it by hand, or take it to another computer: %1</source>
-        <translation>手動で開くか、別のコンピューターに移してください：%1</translation>
-    </message>
-    <message>
-        <source>The report cannot be shown</source>
-        <translation>レポートを表示できません</translation>
-    </message>
-    <message>
         <source>The camera is back at its place</source>
         <translation>カメラは元の位置に戻りました</translation>
     </message>
@@ -6629,6 +6617,10 @@ projector %2</source>
     <message>
         <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>A を押している間は元の映像、Ctrl+P で静止、B で黒、T でテストチャート、O で数値。</translation>
+    </message>
+    <message>
+        <source>No program here opens it: open it by hand, or take it to another computer.</source>
+        <translation>ここには開けるプログラムがありません。手動で開くか、別のコンピューターに移してください。</translation>
     </message>
 </context>
 <context>

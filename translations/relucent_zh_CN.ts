@@ -6487,18 +6487,6 @@ projector %2</source>
         <translation>没有可以显示其屏幕的桌面。</translation>
     </message>
     <message>
-        <source>The report is written, but no program here opens it.</source>
-        <translation>报告已写入，但此处没有可打开它的程序。</translation>
-    </message>
-    <message>
-        <source>Open it by hand, or take it to another computer: %1</source>
-        <translation>请手动打开，或将其带到另一台计算机：%1</translation>
-    </message>
-    <message>
-        <source>The report cannot be shown</source>
-        <translation>无法显示报告</translation>
-    </message>
-    <message>
         <source>The camera is back at its place</source>
         <translation>相机已回到原位</translation>
     </message>
@@ -6629,6 +6617,10 @@ projector %2</source>
     <message>
         <source>Hold A for the original, Ctrl+P freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>按住 A 显示原图，Ctrl+P 定格，B 变黑，T 显示测试图卡，O 显示数值。</translation>
+    </message>
+    <message>
+        <source>No program here opens it: open it by hand, or take it to another computer.</source>
+        <translation>此处没有可打开它的程序：请手动打开，或将其带到另一台计算机。</translation>
     </message>
 </context>
 <context>

@@ -270,8 +270,13 @@ QWidget* handOverPart(OutputPage& page) {
   auto refresh = [=, &page] {
     report->setWhyNot(page.whyNoPhotograph());
     written->setVisible(!page.reportFile().isEmpty());
-    written->setText(OutputPage::tr("Written to %1, and for paper to report.pdf beside it.")
-                         .arg(QDir::toNativeSeparators(page.reportFile())));
+    const QString where = OutputPage::tr("Written to %1, and for paper to report.pdf beside it.")
+                              .arg(QDir::toNativeSeparators(page.reportFile()));
+    written->setText(page.isReportShown()
+                         ? where
+                         : where + ' ' +
+                               OutputPage::tr("No program here opens it: open it by hand, or take it to "
+                                              "another computer."));
     remove->setVisible(page.installedShow() != OutputPage::InstalledShow::none);
     remove->setIcon(iconOf(Icon::remove, colours().text));
     state->setText(installedText(page));

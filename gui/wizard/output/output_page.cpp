@@ -72,10 +72,8 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&proof_, &OutputProof::failed, this, &OutputPage::tell);
   connect(&proof_, &OutputProof::reported, this, [this](const QString& file) {
     reportFile_ = file;
-    if (!QDesktopServices::openUrl(QUrl::fromLocalFile(file)))
-      tell({ErrorKind::device, tr("The report is written, but no program here opens it."),
-            tr("Open it by hand, or take it to another computer: %1").arg(file), file,
-            tr("The report cannot be shown")});
+    // It is what was asked for, whether or not a browser is there.
+    isReportShown_ = QDesktopServices::openUrl(QUrl::fromLocalFile(file));
     tellResult();
   });
   connect(&perfecting_, &Perfecting::changed, this, &OutputPage::tellResult);

@@ -142,6 +142,8 @@ class OutputPage : public DevicePage {
   void report();
   /// Where it is; empty: not written since the calibration was opened.
   const QString& reportFile() const { return reportFile_; }
+  /// False: no program here opens it.
+  bool isReportShown() const { return isReportShown_; }
 
   /// The show that starts at log-in: of a user there is one.
   enum class InstalledShow { none, thisVenues, anotherVenues };
@@ -221,6 +223,7 @@ class OutputPage : public DevicePage {
   InstalledShow installed_ = InstalledShow::none;
   QTime nightAt_;
   QString reportFile_;
+  bool isReportShown_ = false;
   bool isLookedAt_ = false;
   std::function<QTime()> now_ = [] { return QTime::currentTime(); };
   QTimer second_;                     // each, while it plays

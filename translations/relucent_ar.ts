@@ -303,25 +303,25 @@
         <translation>تم القياس</translation>
     </message>
     <message numerus="yes">
-        <source>Interrupted: %n photograph(s) are safe</source>
+        <source>Interrupted: %n pattern(s) are safe</source>
         <translation>
-            <numerusform>انقطع القياس: لا لقطات محفوظة</numerusform>
-            <numerusform>انقطع القياس: لقطة واحدة محفوظة</numerusform>
-            <numerusform>انقطع القياس: لقطتان محفوظتان</numerusform>
-            <numerusform>انقطع القياس: %n لقطات محفوظة</numerusform>
-            <numerusform>انقطع القياس: %n لقطة محفوظة</numerusform>
-            <numerusform>انقطع القياس: %n لقطة محفوظة</numerusform>
+            <numerusform>انقطع القياس: لا أنماط محفوظة</numerusform>
+            <numerusform>انقطع القياس: نمط واحد محفوظ</numerusform>
+            <numerusform>انقطع القياس: نمطان محفوظان</numerusform>
+            <numerusform>انقطع القياس: %n أنماط محفوظة</numerusform>
+            <numerusform>انقطع القياس: %n نمطًا محفوظًا</numerusform>
+            <numerusform>انقطع القياس: %n نمط محفوظ</numerusform>
         </translation>
     </message>
     <message numerus="yes">
-        <source>Measured; %n newer photograph(s) are safe</source>
+        <source>Measured; %n newer pattern(s) are safe</source>
         <translation>
-            <numerusform>تم القياس؛ لا لقطات أحدث</numerusform>
-            <numerusform>تم القياس؛ لقطة أحدث واحدة محفوظة</numerusform>
-            <numerusform>تم القياس؛ لقطتان أحدث محفوظتان</numerusform>
-            <numerusform>تم القياس؛ %n لقطات أحدث محفوظة</numerusform>
-            <numerusform>تم القياس؛ %n لقطة أحدث محفوظة</numerusform>
-            <numerusform>تم القياس؛ %n لقطة أحدث محفوظة</numerusform>
+            <numerusform>تم القياس؛ لا أنماط أحدث</numerusform>
+            <numerusform>تم القياس؛ نمط أحدث واحد محفوظ</numerusform>
+            <numerusform>تم القياس؛ نمطان أحدث محفوظان</numerusform>
+            <numerusform>تم القياس؛ %n أنماط أحدث محفوظة</numerusform>
+            <numerusform>تم القياس؛ %n نمطًا أحدث محفوظًا</numerusform>
+            <numerusform>تم القياس؛ %n نمط أحدث محفوظ</numerusform>
         </translation>
     </message>
 </context>
@@ -3172,17 +3172,6 @@
         <source>Stopped by a failure</source>
         <translation>توقف بسبب عطل</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) kept</source>
-        <translation>
-            <numerusform>لم تُحفظ أي لقطة</numerusform>
-            <numerusform>حُفظت لقطة واحدة</numerusform>
-            <numerusform>حُفظت لقطتان</numerusform>
-            <numerusform>حُفظت %n لقطات</numerusform>
-            <numerusform>حُفظت %n لقطة</numerusform>
-            <numerusform>حُفظت %n لقطة</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Waiting for you. Nothing is being projected.</source>
         <translation>بانتظارك. لا يُعرض شيء.</translation>
@@ -3247,17 +3236,6 @@
         <source>The last session ended before it was finished</source>
         <translation>انتهت الجلسة الأخيرة قبل اكتمال القياس</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
-        <translation>
-            <numerusform>لا لقطات بعد. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
-            <numerusform>لقطة واحدة آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
-            <numerusform>لقطتان آمنتان. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
-            <numerusform>%n لقطات آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
-            <numerusform>%n لقطة آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
-            <numerusform>%n لقطة آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Nothing was changed.</source>
         <translation>لم يتغيّر شيء.</translation>
@@ -3265,17 +3243,6 @@
     <message>
         <source>Fineness</source>
         <translation>الدقة</translation>
-    </message>
-    <message numerus="yes">
-        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
-        <translation>
-            <numerusform>لا لقطات على القرص بعد. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
-            <numerusform>لقطة واحدة على القرص. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
-            <numerusform>اللقطتان على القرص. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
-            <numerusform>اللقطات كلها (%n) على القرص. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
-            <numerusform>اللقطات كلها (%n) على القرص. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
-            <numerusform>اللقطات كلها (%n) على القرص. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
-        </translation>
     </message>
     <message>
         <source>Acquire</source>
@@ -3688,17 +3655,6 @@
         <source>Measuring again has not ended</source>
         <translation>لم تنتهِ إعادة القياس</translation>
     </message>
-    <message numerus="yes">
-        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
-        <translation>
-            <numerusform>لا لقطات جديدة بعد: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
-            <numerusform>لقطة جديدة واحدة آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
-            <numerusform>لقطتان جديدتان آمنتان: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
-            <numerusform>%n لقطات جديدة آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
-            <numerusform>%n لقطة جديدة آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
-            <numerusform>%n لقطة جديدة آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Measuring with these settings.</source>
         <translation>يجري القياس بهذه الإعدادات.</translation>
@@ -3762,17 +3718,6 @@
     <message>
         <source>Waiting for your answer. Every photograph is saved.</source>
         <translation>بانتظار جوابك. كل اللقطات محفوظة.</translation>
-    </message>
-    <message numerus="yes">
-        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
-        <translation>
-            <numerusform>لا لقطات سابقة تُقرأ. يستمر القياس من حيث انتهى.</numerusform>
-            <numerusform>تُقرأ أولًا لقطة سابقة واحدة، ثم يستمر القياس من حيث انتهى.</numerusform>
-            <numerusform>تُقرأ أولًا لقطتان سابقتان، ثم يستمر القياس من حيث انتهى.</numerusform>
-            <numerusform>تُقرأ أولًا %n لقطات سابقة، ثم يستمر القياس من حيث انتهى.</numerusform>
-            <numerusform>تُقرأ أولًا %n لقطة سابقة، ثم يستمر القياس من حيث انتهى.</numerusform>
-            <numerusform>تُقرأ أولًا %n لقطة سابقة، ثم يستمر القياس من حيث انتهى.</numerusform>
-        </translation>
     </message>
     <message>
         <source>Go on measuring</source>
@@ -3844,17 +3789,6 @@
     <message>
         <source>Under a minute left</source>
         <translation>بقي أقل من دقيقة</translation>
-    </message>
-    <message numerus="yes">
-        <source>Reading the %n photograph(s) that are kept: %1.</source>
-        <translation>
-            <numerusform>لا لقطات محفوظة للقراءة: ⁨%1⁩.</numerusform>
-            <numerusform>قراءة لقطة محفوظة واحدة: ⁨%1⁩.</numerusform>
-            <numerusform>قراءة لقطتين محفوظتين: ⁨%1⁩.</numerusform>
-            <numerusform>قراءة %n لقطات محفوظة: ⁨%1⁩.</numerusform>
-            <numerusform>قراءة %n لقطة محفوظة: ⁨%1⁩.</numerusform>
-            <numerusform>قراءة %n لقطة محفوظة: ⁨%1⁩.</numerusform>
-        </translation>
     </message>
     <message>
         <source>%1 expected</source>
@@ -3978,10 +3912,6 @@
         <translation>جارٍ الإنهاء</translation>
     </message>
     <message>
-        <source>Exposures</source>
-        <translation>التعريضات</translation>
-    </message>
-    <message>
         <source>Measure with these settings</source>
         <translation>القياس بهذه الإعدادات</translation>
     </message>
@@ -4016,6 +3946,76 @@
     <message>
         <source>The earlier measurement, and all that followed from it.</source>
         <translation>القياس السابق وكل ما ترتّب عليه.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) kept</source>
+        <translation>
+            <numerusform>لم يُحفظ أي نمط</numerusform>
+            <numerusform>حُفظ نمط واحد</numerusform>
+            <numerusform>حُفظ نمطان</numerusform>
+            <numerusform>حُفظت %n أنماط</numerusform>
+            <numerusform>حُفظ %n نمطًا</numerusform>
+            <numerusform>حُفظ %n نمط</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>لا لقطات سابقة تُقرأ. يستمر القياس من حيث انتهى.</numerusform>
+            <numerusform>تُقرأ أولًا لقطات نمط واحد، ثم يستمر القياس من حيث انتهى.</numerusform>
+            <numerusform>تُقرأ أولًا لقطات نمطين، ثم يستمر القياس من حيث انتهى.</numerusform>
+            <numerusform>تُقرأ أولًا لقطات %n أنماط، ثم يستمر القياس من حيث انتهى.</numerusform>
+            <numerusform>تُقرأ أولًا لقطات %n نمطًا، ثم يستمر القياس من حيث انتهى.</numerusform>
+            <numerusform>تُقرأ أولًا لقطات %n نمط، ثم يستمر القياس من حيث انتهى.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>لا لقطات بعد. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+            <numerusform>لقطات نمط واحد آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+            <numerusform>لقطات نمطين آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+            <numerusform>لقطات %n أنماط آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+            <numerusform>لقطات %n نمطًا آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+            <numerusform>لقطات %n نمط آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The new photographs of %n pattern(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>لا لقطات جديدة بعد: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+            <numerusform>اللقطات الجديدة لنمط واحد آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+            <numerusform>اللقطات الجديدة لنمطين آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+            <numerusform>اللقطات الجديدة لـ%n أنماط آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+            <numerusform>اللقطات الجديدة لـ%n نمطًا آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+            <numerusform>اللقطات الجديدة لـ%n نمط آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are on the disk. The pattern under way is not counted.</source>
+        <translation>
+            <numerusform>لا لقطات على القرص بعد. النمط الجاري تصويره غير محسوب.</numerusform>
+            <numerusform>لقطات نمط واحد على القرص. النمط الجاري تصويره غير محسوب.</numerusform>
+            <numerusform>لقطات نمطين على القرص. النمط الجاري تصويره غير محسوب.</numerusform>
+            <numerusform>لقطات %n أنماط على القرص. النمط الجاري تصويره غير محسوب.</numerusform>
+            <numerusform>لقطات %n نمطًا على القرص. النمط الجاري تصويره غير محسوب.</numerusform>
+            <numerusform>لقطات %n نمط على القرص. النمط الجاري تصويره غير محسوب.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>اللقطات</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the photographs of %n pattern(s): %1.</source>
+        <translation>
+            <numerusform>لا لقطات محفوظة للقراءة: ⁨%1⁩.</numerusform>
+            <numerusform>قراءة لقطات نمط واحد: ⁨%1⁩.</numerusform>
+            <numerusform>قراءة لقطات نمطين: ⁨%1⁩.</numerusform>
+            <numerusform>قراءة لقطات %n أنماط: ⁨%1⁩.</numerusform>
+            <numerusform>قراءة لقطات %n نمطًا: ⁨%1⁩.</numerusform>
+            <numerusform>قراءة لقطات %n نمط: ⁨%1⁩.</numerusform>
+        </translation>
     </message>
 </context>
 <context>

@@ -299,17 +299,17 @@
         <translation>Gemessen</translation>
     </message>
     <message numerus="yes">
-        <source>Interrupted: %n photograph(s) are safe</source>
+        <source>Interrupted: %n pattern(s) are safe</source>
         <translation>
-            <numerusform>Unterbrochen: %n Foto ist sicher</numerusform>
-            <numerusform>Unterbrochen: %n Fotos sind sicher</numerusform>
+            <numerusform>Unterbrochen: %n Muster ist sicher</numerusform>
+            <numerusform>Unterbrochen: %n Muster sind sicher</numerusform>
         </translation>
     </message>
     <message numerus="yes">
-        <source>Measured; %n newer photograph(s) are safe</source>
+        <source>Measured; %n newer pattern(s) are safe</source>
         <translation>
-            <numerusform>Gemessen; %n neueres Foto ist sicher</numerusform>
-            <numerusform>Gemessen; %n neuere Fotos sind sicher</numerusform>
+            <numerusform>Gemessen; %n neueres Muster ist sicher</numerusform>
+            <numerusform>Gemessen; %n neuere Muster sind sicher</numerusform>
         </translation>
     </message>
 </context>
@@ -3140,13 +3140,6 @@
         <source>Stopped by a failure</source>
         <translation>Durch Fehler gestoppt</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) kept</source>
-        <translation>
-            <numerusform>%n Foto gesichert</numerusform>
-            <numerusform>%n Fotos gesichert</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Waiting for you. Nothing is being projected.</source>
         <translation>Wartet auf Sie. Es wird nichts projiziert.</translation>
@@ -3211,13 +3204,6 @@
         <source>The last session ended before it was finished</source>
         <translation>Die letzte Sitzung endete vorzeitig</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
-        <translation>
-            <numerusform>%n Foto ist sicher. Fortsetzen führt zum selben Ergebnis, als wäre nichts geschehen.</numerusform>
-            <numerusform>%n Fotos sind sicher. Fortsetzen führt zum selben Ergebnis, als wäre nichts geschehen.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Nothing was changed.</source>
         <translation>Nichts wurde geändert.</translation>
@@ -3225,13 +3211,6 @@
     <message>
         <source>Fineness</source>
         <translation>Feinheit</translation>
-    </message>
-    <message numerus="yes">
-        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
-        <translation>
-            <numerusform>%n Foto ist auf dem Laufwerk. Das gerade entstehende zählt nicht mit.</numerusform>
-            <numerusform>Alle %n Fotos sind auf dem Laufwerk. Das gerade entstehende zählt nicht mit.</numerusform>
-        </translation>
     </message>
     <message>
         <source>Acquire</source>
@@ -3624,13 +3603,6 @@
         <source>Measuring again has not ended</source>
         <translation>Die neue Messung ist nicht zu Ende</translation>
     </message>
-    <message numerus="yes">
-        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
-        <translation>
-            <numerusform>%n neues Foto ist sicher: Setzen Sie jederzeit fort. Bis dahin gilt die frühere Messung.</numerusform>
-            <numerusform>%n neue Fotos sind sicher: Setzen Sie jederzeit fort. Bis dahin gilt die frühere Messung.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Measuring with these settings.</source>
         <translation>Mit diesen Einstellungen wird gemessen.</translation>
@@ -3694,13 +3666,6 @@
     <message>
         <source>Waiting for your answer. Every photograph is saved.</source>
         <translation>Wartet auf Ihre Antwort. Jedes Foto ist gespeichert.</translation>
-    </message>
-    <message numerus="yes">
-        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
-        <translation>
-            <numerusform>Erst wird %n früheres Foto gelesen. Dann geht die Messung dort weiter, wo sie endete.</numerusform>
-            <numerusform>Erst werden %n frühere Fotos gelesen. Dann geht die Messung dort weiter, wo sie endete.</numerusform>
-        </translation>
     </message>
     <message>
         <source>Go on measuring</source>
@@ -3768,13 +3733,6 @@
     <message>
         <source>Under a minute left</source>
         <translation>Noch unter einer Minute</translation>
-    </message>
-    <message numerus="yes">
-        <source>Reading the %n photograph(s) that are kept: %1.</source>
-        <translation>
-            <numerusform>Liest das %n vorhandene Foto: %1.</numerusform>
-            <numerusform>Liest die %n vorhandenen Fotos: %1.</numerusform>
-        </translation>
     </message>
     <message>
         <source>%1 expected</source>
@@ -3886,10 +3844,6 @@
         <translation>Wird beendet</translation>
     </message>
     <message>
-        <source>Exposures</source>
-        <translation>Belichtungen</translation>
-    </message>
-    <message>
         <source>Measure with these settings</source>
         <translation>Mit diesen Einstellungen messen</translation>
     </message>
@@ -3924,6 +3878,52 @@
     <message>
         <source>The earlier measurement, and all that followed from it.</source>
         <translation>Die frühere Messung und alles, was daraus folgte.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) kept</source>
+        <translation>
+            <numerusform>%n Muster gesichert</numerusform>
+            <numerusform>%n Muster gesichert</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>Erst werden die Fotos von %n Muster gelesen. Dann geht die Messung dort weiter, wo sie endete.</numerusform>
+            <numerusform>Erst werden die Fotos von %n Mustern gelesen. Dann geht die Messung dort weiter, wo sie endete.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>Die Fotos von %n Muster sind sicher. Fortsetzen führt zum selben Ergebnis, als wäre nichts geschehen.</numerusform>
+            <numerusform>Die Fotos von %n Mustern sind sicher. Fortsetzen führt zum selben Ergebnis, als wäre nichts geschehen.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The new photographs of %n pattern(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>Die neuen Fotos von %n Muster sind sicher: Setzen Sie jederzeit fort. Bis dahin gilt die frühere Messung.</numerusform>
+            <numerusform>Die neuen Fotos von %n Mustern sind sicher: Setzen Sie jederzeit fort. Bis dahin gilt die frühere Messung.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are on the disk. The pattern under way is not counted.</source>
+        <translation>
+            <numerusform>Die Fotos von %n Muster sind auf dem Laufwerk. Das gerade gezeigte zählt nicht mit.</numerusform>
+            <numerusform>Die Fotos von %n Mustern sind auf dem Laufwerk. Das gerade gezeigte zählt nicht mit.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Fotos</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the photographs of %n pattern(s): %1.</source>
+        <translation>
+            <numerusform>Liest die Fotos von %n Muster: %1.</numerusform>
+            <numerusform>Liest die Fotos von %n Mustern: %1.</numerusform>
+        </translation>
     </message>
 </context>
 <context>

@@ -14,17 +14,17 @@
 <context>
     <name>RecentVenues</name>
     <message numerus="yes">
-        <source>Interrupted: %n photograph(s) are safe</source>
+        <source>Interrupted: %n pattern(s) are safe</source>
         <translation>
-            <numerusform>Interrupted: %n photograph is safe</numerusform>
-            <numerusform>Interrupted: %n photographs are safe</numerusform>
+            <numerusform>Interrupted: %n pattern is safe</numerusform>
+            <numerusform>Interrupted: %n patterns are safe</numerusform>
         </translation>
     </message>
     <message numerus="yes">
-        <source>Measured; %n newer photograph(s) are safe</source>
+        <source>Measured; %n newer pattern(s) are safe</source>
         <translation>
-            <numerusform>Measured; %n newer photograph is safe</numerusform>
-            <numerusform>Measured; %n newer photographs are safe</numerusform>
+            <numerusform>Measured; %n newer pattern is safe</numerusform>
+            <numerusform>Measured; %n newer patterns are safe</numerusform>
         </translation>
     </message>
 </context>
@@ -82,27 +82,6 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>%n photograph(s) kept</source>
-        <translation>
-            <numerusform>%n photograph kept</numerusform>
-            <numerusform>%n photographs kept</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
-        <translation>
-            <numerusform>%n photograph is safe. Resuming gives the same result as if nothing had happened.</numerusform>
-            <numerusform>%n photographs are safe. Resuming gives the same result as if nothing had happened.</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
-        <translation>
-            <numerusform>%n photograph is on the disk. The one being taken is not counted.</numerusform>
-            <numerusform>All %n photographs are on the disk. The one being taken is not counted.</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>About %n pattern(s), %1. Leave the room dark and still.</source>
         <translation>
             <numerusform>About %n pattern, %1. Leave the room dark and still.</numerusform>
@@ -138,31 +117,10 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
-        <translation>
-            <numerusform>%n new photograph is safe: resume any time. Until then the earlier measurement is used.</numerusform>
-            <numerusform>%n new photographs are safe: resume any time. Until then the earlier measurement is used.</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
-        <translation>
-            <numerusform>%n photograph of before is read first. Then measuring goes on where it ended.</numerusform>
-            <numerusform>%n photographs of before are read first. Then measuring goes on where it ended.</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.</source>
         <translation>
             <numerusform>“%1” photographs %n pattern again, from No. %2 on, and goes on from there.</numerusform>
             <numerusform>“%1” photographs %n patterns again, from No. %2 on, and goes on from there.</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>Reading the %n photograph(s) that are kept: %1.</source>
-        <translation>
-            <numerusform>Reading the %n photograph that is kept: %1.</numerusform>
-            <numerusform>Reading the %n photographs that are kept: %1.</numerusform>
         </translation>
     </message>
     <message numerus="yes">
@@ -184,6 +142,48 @@
         <translation>
             <numerusform>%n pattern, %1 of them checks</numerusform>
             <numerusform>%n patterns, %1 of them checks</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) kept</source>
+        <translation>
+            <numerusform>%n pattern kept</numerusform>
+            <numerusform>%n patterns kept</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>The photographs of %n pattern are read first. Then measuring goes on where it ended.</numerusform>
+            <numerusform>The photographs of %n patterns are read first. Then measuring goes on where it ended.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>The photographs of %n pattern are safe. Resuming gives the same result as if nothing had happened.</numerusform>
+            <numerusform>The photographs of %n patterns are safe. Resuming gives the same result as if nothing had happened.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The new photographs of %n pattern(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>The new photographs of %n pattern are safe: resume any time. Until then the earlier measurement is used.</numerusform>
+            <numerusform>The new photographs of %n patterns are safe: resume any time. Until then the earlier measurement is used.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are on the disk. The pattern under way is not counted.</source>
+        <translation>
+            <numerusform>The photographs of %n pattern are on the disk. The pattern under way is not counted.</numerusform>
+            <numerusform>The photographs of %n patterns are on the disk. The pattern under way is not counted.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the photographs of %n pattern(s): %1.</source>
+        <translation>
+            <numerusform>Reading the photographs of %n pattern: %1.</numerusform>
+            <numerusform>Reading the photographs of %n patterns: %1.</numerusform>
         </translation>
     </message>
 </context>

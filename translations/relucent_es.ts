@@ -299,17 +299,17 @@
         <translation>Medido</translation>
     </message>
     <message numerus="yes">
-        <source>Interrupted: %n photograph(s) are safe</source>
+        <source>Interrupted: %n pattern(s) are safe</source>
         <translation>
-            <numerusform>Interrumpida: %n fotografía está a salvo</numerusform>
-            <numerusform>Interrumpida: %n fotografías están a salvo</numerusform>
+            <numerusform>Interrumpida: %n patrón está a salvo</numerusform>
+            <numerusform>Interrumpida: %n patrones están a salvo</numerusform>
         </translation>
     </message>
     <message numerus="yes">
-        <source>Measured; %n newer photograph(s) are safe</source>
+        <source>Measured; %n newer pattern(s) are safe</source>
         <translation>
-            <numerusform>Medido; %n fotografía más nueva a salvo</numerusform>
-            <numerusform>Medido; %n fotografías más nuevas a salvo</numerusform>
+            <numerusform>Medido; %n patrón más nuevo a salvo</numerusform>
+            <numerusform>Medido; %n patrones más nuevos a salvo</numerusform>
         </translation>
     </message>
 </context>
@@ -3140,13 +3140,6 @@
         <source>Stopped by a failure</source>
         <translation>Detenido por un fallo</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) kept</source>
-        <translation>
-            <numerusform>%n fotografía guardada</numerusform>
-            <numerusform>%n fotografías guardadas</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Waiting for you. Nothing is being projected.</source>
         <translation>Esperando sus indicaciones. No se proyecta nada.</translation>
@@ -3211,13 +3204,6 @@
         <source>The last session ended before it was finished</source>
         <translation>La última sesión terminó antes de tiempo</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
-        <translation>
-            <numerusform>%n fotografía está a salvo. Al reanudar, el resultado es el mismo que si no hubiera pasado nada.</numerusform>
-            <numerusform>%n fotografías están a salvo. Al reanudar, el resultado es el mismo que si no hubiera pasado nada.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Nothing was changed.</source>
         <translation>No se ha cambiado nada.</translation>
@@ -3225,13 +3211,6 @@
     <message>
         <source>Fineness</source>
         <translation>Detalle</translation>
-    </message>
-    <message numerus="yes">
-        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
-        <translation>
-            <numerusform>La fotografía tomada (%n) está en el disco. La que está en curso no se cuenta.</numerusform>
-            <numerusform>Las %n fotografías están en el disco. La que está en curso no se cuenta.</numerusform>
-        </translation>
     </message>
     <message>
         <source>Acquire</source>
@@ -3624,13 +3603,6 @@
         <source>Measuring again has not ended</source>
         <translation>La nueva medición no ha terminado</translation>
     </message>
-    <message numerus="yes">
-        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
-        <translation>
-            <numerusform>%n fotografía nueva está a salvo: reanude en cualquier momento. Hasta entonces se usa la medición anterior.</numerusform>
-            <numerusform>%n fotografías nuevas están a salvo: reanude en cualquier momento. Hasta entonces se usa la medición anterior.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Measuring with these settings.</source>
         <translation>Se está midiendo con estos ajustes.</translation>
@@ -3694,13 +3666,6 @@
     <message>
         <source>Waiting for your answer. Every photograph is saved.</source>
         <translation>Espera su respuesta. Todas las fotografías están guardadas.</translation>
-    </message>
-    <message numerus="yes">
-        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
-        <translation>
-            <numerusform>Primero se lee %n fotografía anterior. Después la medición sigue donde terminó.</numerusform>
-            <numerusform>Primero se leen %n fotografías anteriores. Después la medición sigue donde terminó.</numerusform>
-        </translation>
     </message>
     <message>
         <source>Go on measuring</source>
@@ -3768,13 +3733,6 @@
     <message>
         <source>Under a minute left</source>
         <translation>Queda menos de un minuto</translation>
-    </message>
-    <message numerus="yes">
-        <source>Reading the %n photograph(s) that are kept: %1.</source>
-        <translation>
-            <numerusform>Leyendo %n fotografía guardada: %1.</numerusform>
-            <numerusform>Leyendo las %n fotografías guardadas: %1.</numerusform>
-        </translation>
     </message>
     <message>
         <source>%1 expected</source>
@@ -3886,10 +3844,6 @@
         <translation>Terminando</translation>
     </message>
     <message>
-        <source>Exposures</source>
-        <translation>Exposiciones</translation>
-    </message>
-    <message>
         <source>Measure with these settings</source>
         <translation>Medir con estos ajustes</translation>
     </message>
@@ -3924,6 +3878,52 @@
     <message>
         <source>The earlier measurement, and all that followed from it.</source>
         <translation>La medición anterior y todo lo que siguió de ella.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) kept</source>
+        <translation>
+            <numerusform>%n patrón guardado</numerusform>
+            <numerusform>%n patrones guardados</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>Primero se leen las fotografías de %n patrón. Después la medición sigue donde terminó.</numerusform>
+            <numerusform>Primero se leen las fotografías de %n patrones. Después la medición sigue donde terminó.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>Las fotografías de %n patrón están a salvo. Al reanudar, el resultado es el mismo que si no hubiera pasado nada.</numerusform>
+            <numerusform>Las fotografías de %n patrones están a salvo. Al reanudar, el resultado es el mismo que si no hubiera pasado nada.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The new photographs of %n pattern(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>Las fotografías nuevas de %n patrón están a salvo: reanude en cualquier momento. Hasta entonces se usa la medición anterior.</numerusform>
+            <numerusform>Las fotografías nuevas de %n patrones están a salvo: reanude en cualquier momento. Hasta entonces se usa la medición anterior.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are on the disk. The pattern under way is not counted.</source>
+        <translation>
+            <numerusform>Las fotografías de %n patrón están en el disco. El patrón en curso no se cuenta.</numerusform>
+            <numerusform>Las fotografías de %n patrones están en el disco. El patrón en curso no se cuenta.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Fotografías</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the photographs of %n pattern(s): %1.</source>
+        <translation>
+            <numerusform>Leyendo las fotografías de %n patrón: %1.</numerusform>
+            <numerusform>Leyendo las fotografías de %n patrones: %1.</numerusform>
+        </translation>
     </message>
 </context>
 <context>

@@ -299,17 +299,17 @@
         <translation>Mesuré</translation>
     </message>
     <message numerus="yes">
-        <source>Interrupted: %n photograph(s) are safe</source>
+        <source>Interrupted: %n pattern(s) are safe</source>
         <translation>
-            <numerusform>Interrompue : %n photo est en sûreté</numerusform>
-            <numerusform>Interrompue : %n photos sont en sûreté</numerusform>
+            <numerusform>Interrompue : %n motif est en sûreté</numerusform>
+            <numerusform>Interrompue : %n motifs sont en sûreté</numerusform>
         </translation>
     </message>
     <message numerus="yes">
-        <source>Measured; %n newer photograph(s) are safe</source>
+        <source>Measured; %n newer pattern(s) are safe</source>
         <translation>
-            <numerusform>Mesuré ; %n photo plus récente en sûreté</numerusform>
-            <numerusform>Mesuré ; %n photos plus récentes en sûreté</numerusform>
+            <numerusform>Mesuré ; %n motif plus récent en sûreté</numerusform>
+            <numerusform>Mesuré ; %n motifs plus récents en sûreté</numerusform>
         </translation>
     </message>
 </context>
@@ -3140,13 +3140,6 @@
         <source>Stopped by a failure</source>
         <translation>Arrêt sur erreur</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) kept</source>
-        <translation>
-            <numerusform>%n photo gardée</numerusform>
-            <numerusform>%n photos gardées</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Waiting for you. Nothing is being projected.</source>
         <translation>En attente de votre réponse. Rien n’est projeté.</translation>
@@ -3211,13 +3204,6 @@
         <source>The last session ended before it was finished</source>
         <translation>La dernière session s’est arrêtée avant la fin</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
-        <translation>
-            <numerusform>%n photo est en sécurité. La reprise donne le même résultat que si rien ne s’était passé.</numerusform>
-            <numerusform>%n photos sont en sécurité. La reprise donne le même résultat que si rien ne s’était passé.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Nothing was changed.</source>
         <translation>Rien n’a été modifié.</translation>
@@ -3225,13 +3211,6 @@
     <message>
         <source>Fineness</source>
         <translation>Finesse</translation>
-    </message>
-    <message numerus="yes">
-        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
-        <translation>
-            <numerusform>%n photo est sur le disque. Celle en cours n’est pas comptée.</numerusform>
-            <numerusform>Les %n photos sont sur le disque. Celle en cours n’est pas comptée.</numerusform>
-        </translation>
     </message>
     <message>
         <source>Acquire</source>
@@ -3624,13 +3603,6 @@
         <source>Measuring again has not ended</source>
         <translation>La nouvelle mesure n’est pas terminée</translation>
     </message>
-    <message numerus="yes">
-        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
-        <translation>
-            <numerusform>%n nouvelle photo est en sécurité : reprenez à tout moment. D’ici là, l’ancienne mesure sert.</numerusform>
-            <numerusform>%n nouvelles photos sont en sécurité : reprenez à tout moment. D’ici là, l’ancienne mesure sert.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Measuring with these settings.</source>
         <translation>Mesure en cours avec ces réglages.</translation>
@@ -3694,13 +3666,6 @@
     <message>
         <source>Waiting for your answer. Every photograph is saved.</source>
         <translation>Attend votre réponse. Chaque photo est enregistrée.</translation>
-    </message>
-    <message numerus="yes">
-        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
-        <translation>
-            <numerusform>%n photo d’avant est d’abord lue. La mesure reprend ensuite où elle s’est arrêtée.</numerusform>
-            <numerusform>%n photos d’avant sont d’abord lues. La mesure reprend ensuite où elle s’est arrêtée.</numerusform>
-        </translation>
     </message>
     <message>
         <source>Go on measuring</source>
@@ -3768,13 +3733,6 @@
     <message>
         <source>Under a minute left</source>
         <translation>Moins d’une minute</translation>
-    </message>
-    <message numerus="yes">
-        <source>Reading the %n photograph(s) that are kept: %1.</source>
-        <translation>
-            <numerusform>Lecture de %n photo gardée : %1.</numerusform>
-            <numerusform>Lecture des %n photos gardées : %1.</numerusform>
-        </translation>
     </message>
     <message>
         <source>%1 expected</source>
@@ -3886,10 +3844,6 @@
         <translation>Fin en cours</translation>
     </message>
     <message>
-        <source>Exposures</source>
-        <translation>Poses</translation>
-    </message>
-    <message>
         <source>Measure with these settings</source>
         <translation>Mesurer avec ces réglages</translation>
     </message>
@@ -3924,6 +3878,52 @@
     <message>
         <source>The earlier measurement, and all that followed from it.</source>
         <translation>La mesure précédente et tout ce qui en a découlé.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) kept</source>
+        <translation>
+            <numerusform>%n motif gardé</numerusform>
+            <numerusform>%n motifs gardés</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>Les photos de %n motif sont d’abord lues. La mesure reprend ensuite où elle s’est arrêtée.</numerusform>
+            <numerusform>Les photos de %n motifs sont d’abord lues. La mesure reprend ensuite où elle s’est arrêtée.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>Les photos de %n motif sont en sécurité. La reprise donne le même résultat que si rien ne s’était passé.</numerusform>
+            <numerusform>Les photos de %n motifs sont en sécurité. La reprise donne le même résultat que si rien ne s’était passé.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The new photographs of %n pattern(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>Les nouvelles photos de %n motif sont en sécurité : reprenez à tout moment. D’ici là, l’ancienne mesure sert.</numerusform>
+            <numerusform>Les nouvelles photos de %n motifs sont en sécurité : reprenez à tout moment. D’ici là, l’ancienne mesure sert.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are on the disk. The pattern under way is not counted.</source>
+        <translation>
+            <numerusform>Les photos de %n motif sont sur le disque. Le motif en cours n’est pas compté.</numerusform>
+            <numerusform>Les photos de %n motifs sont sur le disque. Le motif en cours n’est pas compté.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Photos</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the photographs of %n pattern(s): %1.</source>
+        <translation>
+            <numerusform>Lecture des photos de %n motif : %1.</numerusform>
+            <numerusform>Lecture des photos de %n motifs : %1.</numerusform>
+        </translation>
     </message>
 </context>
 <context>

@@ -299,17 +299,17 @@
         <translation>Misurato</translation>
     </message>
     <message numerus="yes">
-        <source>Interrupted: %n photograph(s) are safe</source>
+        <source>Interrupted: %n pattern(s) are safe</source>
         <translation>
-            <numerusform>Interrotta: %n foto è al sicuro</numerusform>
-            <numerusform>Interrotta: %n foto sono al sicuro</numerusform>
+            <numerusform>Interrotta: %n pattern è al sicuro</numerusform>
+            <numerusform>Interrotta: %n pattern sono al sicuro</numerusform>
         </translation>
     </message>
     <message numerus="yes">
-        <source>Measured; %n newer photograph(s) are safe</source>
+        <source>Measured; %n newer pattern(s) are safe</source>
         <translation>
-            <numerusform>Misurato; %n foto più recente al sicuro</numerusform>
-            <numerusform>Misurato; %n foto più recenti al sicuro</numerusform>
+            <numerusform>Misurato; %n pattern più recente al sicuro</numerusform>
+            <numerusform>Misurato; %n pattern più recenti al sicuro</numerusform>
         </translation>
     </message>
 </context>
@@ -3140,13 +3140,6 @@
         <source>Stopped by a failure</source>
         <translation>Interrotto da errore</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) kept</source>
-        <translation>
-            <numerusform>%n foto conservata</numerusform>
-            <numerusform>%n foto conservate</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Waiting for you. Nothing is being projected.</source>
         <translation>In attesa dell’operatore. Nulla viene proiettato.</translation>
@@ -3211,13 +3204,6 @@
         <source>The last session ended before it was finished</source>
         <translation>L’ultima sessione si è chiusa prima della fine</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
-        <translation>
-            <numerusform>%n foto è al sicuro. Riprendendo, il risultato è lo stesso che senza interruzione.</numerusform>
-            <numerusform>%n foto sono al sicuro. Riprendendo, il risultato è lo stesso che senza interruzione.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Nothing was changed.</source>
         <translation>Nulla è stato modificato.</translation>
@@ -3225,13 +3211,6 @@
     <message>
         <source>Fineness</source>
         <translation>Finezza</translation>
-    </message>
-    <message numerus="yes">
-        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
-        <translation>
-            <numerusform>%n foto è sul disco. Quella in corso non è contata.</numerusform>
-            <numerusform>Tutte le %n foto sono sul disco. Quella in corso non è contata.</numerusform>
-        </translation>
     </message>
     <message>
         <source>Acquire</source>
@@ -3624,13 +3603,6 @@
         <source>Measuring again has not ended</source>
         <translation>La nuova misura non è finita</translation>
     </message>
-    <message numerus="yes">
-        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
-        <translation>
-            <numerusform>%n nuova foto è al sicuro: si può riprendere in ogni momento. Fino ad allora vale la misura precedente.</numerusform>
-            <numerusform>%n nuove foto sono al sicuro: si può riprendere in ogni momento. Fino ad allora vale la misura precedente.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Measuring with these settings.</source>
         <translation>Misura in corso con queste impostazioni.</translation>
@@ -3694,13 +3666,6 @@
     <message>
         <source>Waiting for your answer. Every photograph is saved.</source>
         <translation>In attesa di una risposta. Ogni foto è salvata.</translation>
-    </message>
-    <message numerus="yes">
-        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
-        <translation>
-            <numerusform>Prima si legge %n foto precedente. Poi la misura riprende da dove era finita.</numerusform>
-            <numerusform>Prima si leggono %n foto precedenti. Poi la misura riprende da dove era finita.</numerusform>
-        </translation>
     </message>
     <message>
         <source>Go on measuring</source>
@@ -3768,13 +3733,6 @@
     <message>
         <source>Under a minute left</source>
         <translation>Ancora meno di un minuto</translation>
-    </message>
-    <message numerus="yes">
-        <source>Reading the %n photograph(s) that are kept: %1.</source>
-        <translation>
-            <numerusform>Lettura di %n foto conservata: %1.</numerusform>
-            <numerusform>Lettura delle %n foto conservate: %1.</numerusform>
-        </translation>
     </message>
     <message>
         <source>%1 expected</source>
@@ -3886,10 +3844,6 @@
         <translation>In chiusura</translation>
     </message>
     <message>
-        <source>Exposures</source>
-        <translation>Esposizioni</translation>
-    </message>
-    <message>
         <source>Measure with these settings</source>
         <translation>Misura con queste impostazioni</translation>
     </message>
@@ -3924,6 +3878,52 @@
     <message>
         <source>The earlier measurement, and all that followed from it.</source>
         <translation>La misura precedente e tutto ciò che ne è seguito.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) kept</source>
+        <translation>
+            <numerusform>%n pattern conservato</numerusform>
+            <numerusform>%n pattern conservati</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>Prima si leggono le foto di %n pattern. Poi la misura riprende da dove era finita.</numerusform>
+            <numerusform>Prima si leggono le foto di %n pattern. Poi la misura riprende da dove era finita.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>Le foto di %n pattern sono al sicuro. Riprendendo, il risultato è lo stesso che senza interruzione.</numerusform>
+            <numerusform>Le foto di %n pattern sono al sicuro. Riprendendo, il risultato è lo stesso che senza interruzione.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The new photographs of %n pattern(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>Le nuove foto di %n pattern sono al sicuro: si può riprendere in ogni momento. Fino ad allora vale la misura precedente.</numerusform>
+            <numerusform>Le nuove foto di %n pattern sono al sicuro: si può riprendere in ogni momento. Fino ad allora vale la misura precedente.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are on the disk. The pattern under way is not counted.</source>
+        <translation>
+            <numerusform>Le foto di %n pattern sono sul disco. Il pattern in corso non è contato.</numerusform>
+            <numerusform>Le foto di %n pattern sono sul disco. Il pattern in corso non è contato.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Foto</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the photographs of %n pattern(s): %1.</source>
+        <translation>
+            <numerusform>Lettura delle foto di %n pattern: %1.</numerusform>
+            <numerusform>Lettura delle foto di %n pattern: %1.</numerusform>
+        </translation>
     </message>
 </context>
 <context>

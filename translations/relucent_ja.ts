@@ -298,15 +298,15 @@
         <translation>測定済み</translation>
     </message>
     <message numerus="yes">
-        <source>Interrupted: %n photograph(s) are safe</source>
+        <source>Interrupted: %n pattern(s) are safe</source>
         <translation>
-            <numerusform>中断：写真 %n 枚は保存済み</numerusform>
+            <numerusform>中断：%n パターンは保存済み</numerusform>
         </translation>
     </message>
     <message numerus="yes">
-        <source>Measured; %n newer photograph(s) are safe</source>
+        <source>Measured; %n newer pattern(s) are safe</source>
         <translation>
-            <numerusform>測定済み、新しい写真 %n 枚は保存済み</numerusform>
+            <numerusform>測定済み、新しい %n パターンは保存済み</numerusform>
         </translation>
     </message>
 </context>
@@ -3132,12 +3132,6 @@
         <source>Stopped by a failure</source>
         <translation>エラーで停止</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) kept</source>
-        <translation>
-            <numerusform>写真 %n 枚を保持</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Waiting for you. Nothing is being projected.</source>
         <translation>操作を待っています。何も投影していません。</translation>
@@ -3202,12 +3196,6 @@
         <source>The last session ended before it was finished</source>
         <translation>前回の作業は途中で終わりました</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
-        <translation>
-            <numerusform>写真 %n 枚は無事です。再開すれば、中断がなかった場合と同じ結果になります。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Nothing was changed.</source>
         <translation>何も変更していません。</translation>
@@ -3215,12 +3203,6 @@
     <message>
         <source>Fineness</source>
         <translation>細かさ</translation>
-    </message>
-    <message numerus="yes">
-        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
-        <translation>
-            <numerusform>写真 %n 枚はすべてディスクにあります。撮影中の 1 枚は含みません。</numerusform>
-        </translation>
     </message>
     <message>
         <source>Acquire</source>
@@ -3608,12 +3590,6 @@
         <source>Measuring again has not ended</source>
         <translation>再測定が終わっていません</translation>
     </message>
-    <message numerus="yes">
-        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
-        <translation>
-            <numerusform>新しい写真 %n 枚は無事です。いつでも再開できます。それまでは前の測定を使います。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Measuring with these settings.</source>
         <translation>この設定で測定中です。</translation>
@@ -3677,12 +3653,6 @@
     <message>
         <source>Waiting for your answer. Every photograph is saved.</source>
         <translation>回答を待っています。写真はすべて保存済みです。</translation>
-    </message>
-    <message numerus="yes">
-        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
-        <translation>
-            <numerusform>先に以前の写真 %n 枚を読み込み、続きから測定します。</numerusform>
-        </translation>
     </message>
     <message>
         <source>Go on measuring</source>
@@ -3749,12 +3719,6 @@
     <message>
         <source>Under a minute left</source>
         <translation>残り 1 分未満</translation>
-    </message>
-    <message numerus="yes">
-        <source>Reading the %n photograph(s) that are kept: %1.</source>
-        <translation>
-            <numerusform>保存済みの写真 %n 枚を読み込み中：%1</numerusform>
-        </translation>
     </message>
     <message>
         <source>%1 expected</source>
@@ -3863,10 +3827,6 @@
         <translation>終了中</translation>
     </message>
     <message>
-        <source>Exposures</source>
-        <translation>露光回数</translation>
-    </message>
-    <message>
         <source>Measure with these settings</source>
         <translation>この設定で測定</translation>
     </message>
@@ -3901,6 +3861,46 @@
     <message>
         <source>The earlier measurement, and all that followed from it.</source>
         <translation>前の測定と、そこから得られたものすべて。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) kept</source>
+        <translation>
+            <numerusform>%n パターンを保持</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>先に %n パターンの写真を読み込み、続きから測定します。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>%n パターンの写真は無事です。再開すれば、中断がなかった場合と同じ結果になります。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The new photographs of %n pattern(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>%n パターンの新しい写真は無事です。いつでも再開できます。それまでは前の測定を使います。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are on the disk. The pattern under way is not counted.</source>
+        <translation>
+            <numerusform>%n パターンの写真はディスクにあります。撮影中のパターンは含みません。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>写真</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the photographs of %n pattern(s): %1.</source>
+        <translation>
+            <numerusform>%n パターンの写真を読み込み中：%1</numerusform>
+        </translation>
     </message>
 </context>
 <context>

@@ -298,15 +298,15 @@
         <translation>已测量</translation>
     </message>
     <message numerus="yes">
-        <source>Interrupted: %n photograph(s) are safe</source>
+        <source>Interrupted: %n pattern(s) are safe</source>
         <translation>
-            <numerusform>已中断：%n 张照片已安全保存</numerusform>
+            <numerusform>已中断：%n 个图案已安全保存</numerusform>
         </translation>
     </message>
     <message numerus="yes">
-        <source>Measured; %n newer photograph(s) are safe</source>
+        <source>Measured; %n newer pattern(s) are safe</source>
         <translation>
-            <numerusform>已测量；%n 张更新的照片已安全保存</numerusform>
+            <numerusform>已测量；%n 个更新的图案已安全保存</numerusform>
         </translation>
     </message>
 </context>
@@ -3132,12 +3132,6 @@
         <source>Stopped by a failure</source>
         <translation>因故障停止</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) kept</source>
-        <translation>
-            <numerusform>已保留 %n 张照片</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Waiting for you. Nothing is being projected.</source>
         <translation>正在等待您的操作。当前没有投影。</translation>
@@ -3202,12 +3196,6 @@
         <source>The last session ended before it was finished</source>
         <translation>上次测量未完成就已结束</translation>
     </message>
-    <message numerus="yes">
-        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
-        <translation>
-            <numerusform>%n 张照片已保存。继续测量，结果与未中断时相同。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Nothing was changed.</source>
         <translation>没有任何更改。</translation>
@@ -3215,12 +3203,6 @@
     <message>
         <source>Fineness</source>
         <translation>精细度</translation>
-    </message>
-    <message numerus="yes">
-        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
-        <translation>
-            <numerusform>全部 %n 张照片已写入磁盘。正在拍摄的一张不计在内。</numerusform>
-        </translation>
     </message>
     <message>
         <source>Acquire</source>
@@ -3608,12 +3590,6 @@
         <source>Measuring again has not ended</source>
         <translation>重新测量尚未结束</translation>
     </message>
-    <message numerus="yes">
-        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
-        <translation>
-            <numerusform>%n 张新照片已保存：可随时恢复。在此之前使用之前的测量。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Measuring with these settings.</source>
         <translation>正在用这些设置测量。</translation>
@@ -3677,12 +3653,6 @@
     <message>
         <source>Waiting for your answer. Every photograph is saved.</source>
         <translation>正在等待您的回答。每张照片都已保存。</translation>
-    </message>
-    <message numerus="yes">
-        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
-        <translation>
-            <numerusform>先读取之前的 %n 张照片，然后从中断处继续测量。</numerusform>
-        </translation>
     </message>
     <message>
         <source>Go on measuring</source>
@@ -3749,12 +3719,6 @@
     <message>
         <source>Under a minute left</source>
         <translation>剩余不到一分钟</translation>
-    </message>
-    <message numerus="yes">
-        <source>Reading the %n photograph(s) that are kept: %1.</source>
-        <translation>
-            <numerusform>正在读取已保留的 %n 张照片：%1。</numerusform>
-        </translation>
     </message>
     <message>
         <source>%1 expected</source>
@@ -3863,10 +3827,6 @@
         <translation>正在结束</translation>
     </message>
     <message>
-        <source>Exposures</source>
-        <translation>曝光次数</translation>
-    </message>
-    <message>
         <source>Measure with these settings</source>
         <translation>按此设置测量</translation>
     </message>
@@ -3901,6 +3861,46 @@
     <message>
         <source>The earlier measurement, and all that followed from it.</source>
         <translation>之前的测量及其后续的全部结果。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) kept</source>
+        <translation>
+            <numerusform>已保留 %n 个图案</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>先读取 %n 个图案的照片，然后从中断处继续测量。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>%n 个图案的照片已保存。继续测量，结果与未中断时相同。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The new photographs of %n pattern(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>%n 个图案的新照片已保存：可随时恢复。在此之前使用之前的测量。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>The photographs of %n pattern(s) are on the disk. The pattern under way is not counted.</source>
+        <translation>
+            <numerusform>%n 个图案的照片已写入磁盘。正在拍摄的图案不计在内。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>照片</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the photographs of %n pattern(s): %1.</source>
+        <translation>
+            <numerusform>正在读取 %n 个图案的照片：%1。</numerusform>
+        </translation>
     </message>
 </context>
 <context>

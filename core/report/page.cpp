@@ -302,7 +302,7 @@ void setSettingsAndTimes(Data& page, const ReportData& data) {
   Data costs(Data::type::list);
   // By the steps that measured them, each as its page in the program counts it.
   const auto step = [](double seconds, int patterns, int exposures) {
-    return fmt::format("{}, {} patterns, {} exposures", stageDuration(seconds),
+    return fmt::format("{}, {} patterns, {} photographs", stageDuration(seconds),
                        grouped(atLeastNone(patterns)), grouped(atLeastNone(exposures)));
   };
   costs << named(

@@ -139,7 +139,7 @@ StepStatus AcquirePage::status() const {
       break;
   }
   if (job_.state() == Job::State::failed) return {StepState::failed, tr("Stopped by a failure")};
-  if (kept_ > 0) return {StepState::open, tr("%n photograph(s) kept", nullptr, kept_)};
+  if (kept_ > 0) return {StepState::open, tr("%n pattern(s) kept", nullptr, kept_)};
   return {};
 }
 
@@ -152,8 +152,8 @@ QString AcquirePage::hint() const {
   if (isStopping()) return tr("Ending with what is measured.");
   if (isAsking()) return tr("Waiting for your answer.");
   if (isReading())
-    return tr("%n photograph(s) of before are read first. Then measuring goes on where it ended.", nullptr,
-              kept_);
+    return tr("The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.",
+              nullptr, kept_);
   if (isMeasuring())
     return status().hasResult
                ? tr("Every photograph is saved. The earlier measurement is used until the new one is ready.")
@@ -255,7 +255,8 @@ std::optional<Banner> AcquirePage::banner() const {
   if (isDoubtful()) return onMeasurement(session_, nullptr);
   if (progress == calibration::StageProgress::open && kept_ > 0)
     return Banner{Banner::Kind::information, tr("The last session ended before it was finished"),
-                  tr("%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.",
+                  tr("The photographs of %n pattern(s) are safe. Resuming gives the same result as if "
+                     "nothing had happened.",
                      nullptr, kept_)};
   return overTheShow();
 }
@@ -273,8 +274,10 @@ Banner AcquirePage::interruptedBanner() const {
 }
 
 QString AcquirePage::safeSince() const {
-  return tr("%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.",
-            nullptr, again_);
+  return tr(
+      "The new photographs of %n pattern(s) are safe: resume any time. Until then the earlier measurement is "
+      "used.",
+      nullptr, again_);
 }
 
 bool AcquirePage::isStale() const {
@@ -455,10 +458,10 @@ void AcquirePage::finish() {
 void AcquirePage::ended() {
   second_.stop();
   asking_.reset();
+  returning_.reset();
   trace_.end();
   std::optional<Failure> unread;
   if (session_.isOpen()) {
-  returning_.reset();
     unread = session_.readAgain();
     countKept();
   }
@@ -470,7 +473,8 @@ void AcquirePage::ended() {
   if (job_.state() == Job::State::failed) {
     Q_EMIT failed(
         {job_.failure(),
-         tr("All %n photograph(s) are on the disk. The one being taken is not counted.", nullptr, kept_),
+         tr("The photographs of %n pattern(s) are on the disk. The pattern under way is not counted.",
+            nullptr, kept_),
          retry_});
   } else if (unread) {
     Q_EMIT failed({*unread, tr("What is measured is safe."), nullptr});

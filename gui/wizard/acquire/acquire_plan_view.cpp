@@ -154,7 +154,7 @@ QWidget* resultPart(AcquirePage& model) {
   rows->addWidget(lineOf());
   rows->addWidget(labelOf(AcquirePage::tr("What was measured"), "section"));
   auto* patterns = new ValueRow(AcquirePage::tr("Patterns"));
-  auto* photographs = new ValueRow(AcquirePage::tr("Exposures"));
+  auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
   auto* error = new ValueRow(AcquirePage::tr("Error of the test patterns"));
   auto* quality = new ValueRow(AcquirePage::tr("Pictures expected at"));
   quality->setToolTip(qualityMeaning());

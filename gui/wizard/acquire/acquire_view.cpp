@@ -155,7 +155,7 @@ QString timeText(const AcquirePage& model) {
 QString stageText(const AcquirePage& model) {
   if (model.isReading()) {
     const PatternCount read = model.reading();
-    return AcquirePage::tr("Reading the %n photograph(s) that are kept: %1.", nullptr, read.expected)
+    return AcquirePage::tr("Reading the photographs of %n pattern(s): %1.", nullptr, read.expected)
         .arg(percentText(static_cast<double>(read.taken) / read.expected));
   }
   const QString stage = model.stage();
@@ -178,7 +178,7 @@ QWidget* runOf(AcquirePage& model) {
   column->addWidget(outlookPart(model));
   column->addWidget(lineOf());
   auto* patterns = new ValueRow(AcquirePage::tr("Patterns"));
-  auto* photographs = new ValueRow(AcquirePage::tr("Exposures"));
+  auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
   auto* disk = new ValueRow(AcquirePage::tr("Disk still needed"));
   for (ValueRow* row : {patterns, photographs, disk}) column->addWidget(row);
   column->addWidget(lineOf());

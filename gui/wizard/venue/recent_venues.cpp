@@ -28,8 +28,8 @@ QString stateOf(const calibration::CalibrationFolder& folder) {
   const bool isFirst =
       calibration::progressOf(folder, calibration::Stage::acquisition) == calibration::StageProgress::open;
   if (const int kept = photographsInterrupted(folder); kept > 0)
-    return isFirst ? Translated::tr("Interrupted: %n photograph(s) are safe", nullptr, kept)
-                   : Translated::tr("Measured; %n newer photograph(s) are safe", nullptr, kept);
+    return isFirst ? Translated::tr("Interrupted: %n pattern(s) are safe", nullptr, kept)
+                   : Translated::tr("Measured; %n newer pattern(s) are safe", nullptr, kept);
   if (isFirst)
     return calibration::progressOf(folder, calibration::Stage::linearization) ==
                    calibration::StageProgress::open

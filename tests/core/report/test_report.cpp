@@ -292,8 +292,8 @@ class TestReport : public QObject {
     data.linearizationPatterns = 29;
     data.result.linearizationExposures = 30;
     const QString page = html(data);
-    for (const char* expected : {"41 s, 29 patterns, 30 exposures", "776 patterns, 1\u202f521 exposures",
-                                 "805 patterns, 1\u202f551 exposures"})
+    for (const char* expected : {"41 s, 29 patterns, 30 photographs", "776 patterns, 1\u202f521 photographs",
+                                 "805 patterns, 1\u202f551 photographs"})
       QVERIFY2(page.contains(QString::fromUtf8(expected)), expected);
   }
 

@@ -353,7 +353,7 @@ class TestAcceptanceWalk : public QObject {
     TRY_DO(program_->clickText("Resume"));
     TRY_SEEN(seen.part(step(4)).spoken.endsWith("current") && seen.part(step(4)).more.endsWith("kept"));
     SEEN(seen.part("banner-sentence").text == "The last session ended before it was finished" &&
-         seen.says("photographs are safe"));
+         seen.says("patterns are safe"));
     SEEN(seen.part("primary").text == "Resume" && !seen.part("primary").isEnabled &&
          seen.part("hint").text == "Confirm that the room is clear.");
     TRY_DO(program_->click("room-is-clear"));

@@ -16,6 +16,8 @@
 namespace relucent::gui {
 namespace {
 
+constexpr int titleBar = 40;  // that a window manager may add, pixels
+
 /// A name above the control that it is of.
 void addNamed(QVBoxLayout* column, const QString& name, QWidget* control) {
   column->addWidget(labelOf(name, "note"));
@@ -49,7 +51,7 @@ SettingsDialog::SettingsDialog(Preferences& preferences, QStringList languages, 
   inside->addWidget(measuringPart());
   inside->addWidget(folderPart());
   inside->addStretch(1);
-  QScrollArea* scroll = stageScroll(parts);
+  QScrollArea* scroll = scroll_ = stageScroll(parts);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   column->addWidget(scroll, 1);
   auto* row = new QHBoxLayout;
@@ -64,8 +66,16 @@ SettingsDialog::SettingsDialog(Preferences& preferences, QStringList languages, 
   ensurePolished();
   const int around = column->sizeHint().height() - scroll->sizeHint().height();
   const int whole = around + inside->heightForWidth(minimumWidth() - 2 * space::page);
-  constexpr int titleBar = 40;
   resize(minimumWidth(), std::min(whole, screen()->availableSize().height() - titleBar));
+}
+
+/// A line more than was foreseen is seen only once all is laid out.
+void SettingsDialog::showEvent(QShowEvent* event) {
+  QDialog::showEvent(event);
+  layout()->activate();
+  const int lacking = scroll_->widget()->height() - scroll_->viewport()->height();
+  if (lacking > 0)
+    resize(width(), std::min(height() + lacking, screen()->availableSize().height() - titleBar));
 }
 
 QWidget* SettingsDialog::lookPart() {

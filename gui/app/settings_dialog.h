@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QDialog>
+#include <QScrollArea>
 
 #include "wizard/frame/preferences.h"
 
@@ -15,11 +16,15 @@ class SettingsDialog : public QDialog {
   /// `languages`: codes of the available languages, "de".
   SettingsDialog(Preferences& preferences, QStringList languages, QWidget* parent = nullptr);
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   QWidget* lookPart();
   QWidget* measuringPart();
   QWidget* folderPart();
   Preferences& preferences_;
+  QScrollArea* scroll_ = nullptr;
   QStringList languages_;
 };
 

@@ -120,6 +120,12 @@ class TestLayouts : public QObject {
     QStringList faults = faultsOf(dialog, language, where);
     if (dialog.width() > screen.width() || dialog.height() > screen.height() - titleBar)
       faults << language + ", " + where + ": the dialog does not fit the screen";
+    // Where the screen has room, nothing of it has to be scrolled to.
+    for (const auto* scroll : dialog.findChildren<QScrollArea*>("stage"))
+      if (scroll->widget()->height() > scroll->viewport()->height())
+        faults << QString("%1, %2: %3 px are cut at the bottom")
+                      .arg(language, where)
+                      .arg(scroll->widget()->height() - scroll->viewport()->height());
     return faults;
   }
   /// What may open on any page.

@@ -426,15 +426,16 @@ void AcquirePage::begin() {
   job_.start([work = workOf(session_), anew = anew_, handler, retrying, expects,
               room = &room_](Progress& progress) {
     room->countPauses([live = work.devices->sharedLive()] { return live->paused(); });
-    Progress opening = progress.part(0.05, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
+    Progress opening =
+        progress.part(openingShare, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =
         calibration::CalibrationFolder::open(work.path, calibration::CalibrationFolder::Access::write);
     if (anew) pipeline::measureAgain(folder, calibration::Stage::acquisition);
     Progress reading = progress.part(0.0, RELUCENT_MESSAGE("stage.reading-response", "Reading the response"));
     linearization::Linearization linearization = pipeline::measureLinearization(folder, rig, room, reading);
-    Progress measuring = progress.part(
-        0.95, RELUCENT_MESSAGE("stage.measuring-light-transport", "Measuring the light transport"));
+    Progress measuring = progress.part(1.0 - openingShare, RELUCENT_MESSAGE("stage.measuring-light-transport",
+                                                                            "Measuring the light transport"));
     pipeline::goOnMeasuring(folder, rig, linearization, handler, *retrying, expects, room, measuring);
   });
   tellProgress();

@@ -185,6 +185,7 @@ class AcquirePage : public DevicePage {
   void updateCommands() override;
 
  private:
+  static constexpr double openingShare = 0.05;  // of the job
   void makeCommands();
   bool isStale() const;
   bool needsConsentNow() const;

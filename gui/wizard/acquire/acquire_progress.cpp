@@ -41,7 +41,9 @@ int AcquirePage::photographs() const {
 
 bool AcquirePage::isReading() const {
   const bool isOfThis = !isStale() || again_ > 0;
-  return isMeasuring() && !anew_ && kept_ > 0 && isOfThis && photographs() == 0;
+  // While the devices are opened, patterns of their checks are on the projector.
+  return isMeasuring() && job_.fraction() >= openingShare && !anew_ && kept_ > 0 && isOfThis &&
+         photographs() == 0;
 }
 
 PatternCount AcquirePage::reading() const {

@@ -87,13 +87,16 @@ endfunction()
 function(relucent_core_library name)
   cmake_parse_arguments(ARG "OWN_FLAGS" "" "SOURCES;USES;PUBLIC;PRIVATE" ${ARGN})
   set(target relucent_${name})
-  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(${target} ${ARG_SOURCES})
   add_library(relucent::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  # Shared or static it is compiled alike, and reads the same prelude.
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} DEFINE_SYMBOL "")
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${RELUCENT_INCLUDE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  install(TARGETS ${target} EXPORT relucentTargets ARCHIVE COMPONENT Development EXCLUDE_FROM_ALL)
+  install(TARGETS ${target} EXPORT relucentTargets
+    ARCHIVE COMPONENT Development EXCLUDE_FROM_ALL
+    LIBRARY COMPONENT Development EXCLUDE_FROM_ALL)
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/relucent/${folder}
     COMPONENT Development EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.h")

@@ -62,8 +62,8 @@ class ScreenCard : public QRasterWindow {
     for (int inset : frame)
       painter.drawRect(QRect(QPoint(inset, inset), size_ - QSize(2 * inset + 1, 2 * inset + 1)));
     // Upright screens have room for it too.
-    const int unit = std::min(size_.height(), size_.width()) / 24;
-    const int top = (size_.height() - 24 * unit) / 2, widest = size_.width() - 2 * (frame.back() + unit);
+    const int unit = (std::min(size_.height(), size_.width()) - 2 * frame.back()) / 22;
+    const int top = (size_.height() - 25 * unit) / 2, widest = size_.width() - 2 * (frame.back() + unit);
     auto write = [&](double row, int pixels, int weight, const QColor& colour, const QString& text) {
       QFont font = typeOf(std::max(8, pixels), weight);
       if (const int width = QFontMetrics(font).horizontalAdvance(text); width > widest)

@@ -321,8 +321,10 @@ ProvedView viewOf(const ProveResult& result, std::size_t camera) {
   return {result.before, result.after, result.reachable, result.moved};
 }
 
-bool isAsPredicted(const ProvedProjection& projection) {
-  return projection.measured.deltaE <= std::max(2.0 * projection.predicted.deltaE, 1.0);
+bool isAsPredicted(const ProvedView& view) {
+  const double seen = view.after.measured.deltaE;
+  const bool hasMoved = view.moved.explains && std::hypot(view.moved.x, view.moved.y) > plainShift;
+  return seen <= 1.0 || (!hasMoved && seen <= 2.0 * view.after.predicted.deltaE);
 }
 
 bool isAsPredicted(const ProveResult& result) {
@@ -330,9 +332,8 @@ bool isAsPredicted(const ProveResult& result) {
 }
 
 std::optional<std::size_t> viewThatDiffers(const ProveResult& result) {
-  if (!isAsPredicted(result.after)) return 0;
-  for (std::size_t other = 0; other < result.others.size(); ++other)
-    if (!isAsPredicted(result.others[other].after)) return other + 1;
+  for (std::size_t camera = 0; camera <= result.others.size(); ++camera)
+    if (!isAsPredicted(viewOf(result, camera))) return camera;
   return std::nullopt;
 }
 

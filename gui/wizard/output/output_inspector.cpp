@@ -73,10 +73,11 @@ QString viewsLine(const Proof& proof) {
   QStringList views;
   if (proof.figures.others.empty()) return {};
   for (std::size_t camera = 0; camera <= proof.figures.others.size(); ++camera) {
-    const pipeline::ProvedProjection after = proof.figuresOf(camera).after;
-    const QString figures = isolated(QString::fromUtf8("ΔE %1").arg(decimalText(after.measured.deltaE, 1)));
-    views << (pipeline::isAsPredicted(after) ? OutputPage::tr("Camera %1: %2, as predicted")
-                                             : OutputPage::tr("Camera %1: %2, not as predicted"))
+    const pipeline::ProvedView view = proof.figuresOf(camera);
+    const QString figures =
+        isolated(QString::fromUtf8("ΔE %1").arg(decimalText(view.after.measured.deltaE, 1)));
+    views << (pipeline::isAsPredicted(view) ? OutputPage::tr("Camera %1: %2, as predicted")
+                                            : OutputPage::tr("Camera %1: %2, not as predicted"))
                  .arg(camera + 1)
                  .arg(figures);
   }

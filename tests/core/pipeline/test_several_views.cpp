@@ -498,8 +498,9 @@ class TestSeveralViews : public QObject {
     Progress silent;
     const ProveResult result = proveCalibration(statue(), settings, cache(), silent);
     QCOMPARE(result.others.size(), std::size_t{2});
-    bool areAll = isAsPredicted(result.after);
-    for (const ProvedView& view : result.others) areAll = areAll && isAsPredicted(view.after);
+    bool areAll = true;
+    for (std::size_t camera = 0; camera < 3; ++camera)
+      areAll = areAll && isAsPredicted(viewOf(result, camera));
     QCOMPARE(isAsPredicted(result), areAll);
     QCOMPARE(viewThatDiffers(result).has_value(), !areAll);
     for (const ProvedView& view : result.others) {
@@ -520,6 +521,16 @@ class TestSeveralViews : public QObject {
     record.figures.after.measured = record.figures.after.predicted;
     for (ProvedView& view : record.figures.others) view.after.measured = view.after.predicted;
     QVERIFY(isAsPredicted(record.figures));
+    // A view that has moved is told by that, however coarse what was predicted.
+    for (ProvedProjection* after : {&record.figures.after, &record.figures.others[0].after})
+      after->measured.deltaE = after->predicted.deltaE = 5.0;
+    for (sentinels::Movement* moved : {&record.figures.moved, &record.figures.others[0].moved})
+      for (double pixels : {0.5 * plainShift, 2.0 * plainShift})
+        for (bool explains : {false, true}) {
+          *moved = {0.0, pixels, 0.0, explains};
+          QCOMPARE(isAsPredicted(record.figures), !explains || pixels < plainShift);
+          *moved = {};
+        }
     record.figures.others[1].after.measured.deltaE = 100.0;
     QCOMPARE(viewThatDiffers(record.figures), std::optional<std::size_t>(2));
     QVERIFY(!isAsPredicted(record.figures));

@@ -53,7 +53,9 @@ ProjectorWindow::ProjectorWindow(ScreenIdentity display, QWindow* parent)
   connect(qGuiApp, &QGuiApplication::screenAdded, this, &ProjectorWindow::screenCame);
 }
 
-ProjectorWindow::~ProjectorWindow() = default;
+ProjectorWindow::~ProjectorWindow() {
+  letOthersCome();
+}
 
 void ProjectorWindow::takeKeysOnlyIfAlone() {
   setFlag(Qt::WindowDoesNotAcceptFocus, !hidesWindows(findScreen(display_)));
@@ -70,14 +72,32 @@ bool ProjectorWindow::isTaken(const ScreenIdentity& display) {
 
 void ProjectorWindow::shine() {
   wanted_ = true;
-  if (QScreen* screen = findScreen(display_)) goTo(screen);
+  QScreen* screen = findScreen(display_);
+  if (screen != nullptr && !waitsFor(screen)) goTo(screen);
 }
 
 void ProjectorWindow::stop() {
-  wanted_ = lost_ = false;
+  lost_ = false;
   returning_.stop();
   returns_ = 0;
   vanish();
+  letOthersCome();
+}
+
+bool ProjectorWindow::waitsFor(const QScreen* screen) const {
+  const QWindowList windows = QGuiApplication::topLevelWindows();
+  return !isFirst_ && std::any_of(windows.begin(), windows.end(), [screen](const QWindow* window) {
+    const auto* other = qobject_cast<const ProjectorWindow*>(window);
+    return other != nullptr && other->isFirst_ && other->wanted_ && findScreen(other->display_) == screen;
+  });
+}
+
+/// Whatever waited for this one.
+void ProjectorWindow::letOthersCome() {
+  if (!std::exchange(wanted_, false) || !isFirst_) return;
+  for (QWindow* window : QGuiApplication::topLevelWindows())
+    if (auto* other = qobject_cast<ProjectorWindow*>(window); other != nullptr && other != this)
+      other->screenCame();
 }
 
 void ProjectorWindow::vanish() {
@@ -135,7 +155,7 @@ void ProjectorWindow::screenGone(QScreen* screen) {
 void ProjectorWindow::screenCame() {
   if (!wanted_ || on_ != nullptr) return;
   QScreen* screen = findScreen(display_);
-  if (screen == nullptr) return;
+  if (screen == nullptr || waitsFor(screen)) return;
   returning_.stop();
   goTo(screen);
 }

@@ -31,6 +31,9 @@ class ProjectorWindow : public QWindow {
   /// Its keys are for where its display hides the windows that are operated; where it does not, they are
   /// left to those. As the windows stand now; before it is shown.
   void takeKeysOnlyIfAlone();
+  /// Light that is photographed: while it is wanted, another window that comes to its display waits until it
+  /// has gone, however late the desktop lets either back. What shone there before stays behind it.
+  void comeFirst() { isFirst_ = true; }
   /// A projector's window shines on that display now.
   static bool isTaken(const ScreenIdentity& display);
   /// Shows itself full screen on its display, and waits for it if it is absent.
@@ -80,6 +83,8 @@ class ProjectorWindow : public QWindow {
  private:
   void screenGone(QScreen* screen);
   void screenCame();
+  bool waitsFor(const QScreen* screen) const;
+  void letOthersCome();
   void goTo(QScreen* screen);
   void vanish();
   void follow();
@@ -94,6 +99,7 @@ class ProjectorWindow : public QWindow {
   ScreenIdentity display_;
   QPointF mouse_;  // where it was last seen with its button held
   bool wanted_ = false;
+  bool isFirst_ = false;
   QScreen* on_ = nullptr;  // where it is shown; nullptr while hidden
   bool proven_ = false;    // to stand there
   int swaps_ = 0;          // of black, since that was doubted

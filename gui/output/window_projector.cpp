@@ -131,6 +131,7 @@ class WindowProjector::Stage : public QObject {
     window_ = std::make_unique<ProjectorWindow>(display_);
     // Whoever measures goes on working in another window.
     window_->setFlag(Qt::WindowDoesNotAcceptFocus);
+    window_->comeFirst();
     connect(window_.get(), &ProjectorWindow::frameSwapped, this, [this] { swapped(); });
     connect(window_.get(), &ProjectorWindow::displayLost, this, [this] {
       broken();

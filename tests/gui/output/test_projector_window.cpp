@@ -131,6 +131,52 @@ class TestProjectorWindow : public QObject {
     }
   }
 
+  /// Law: where light is photographed, a show comes back only after it: whichever was made first, however
+  /// often the display goes.
+  void comesAfterLightThatIsPhotographed_data() {
+    QTest::addColumn<bool>("isLightOlder");
+    QTest::newRow("made before") << false;
+    QTest::newRow("made after") << true;
+  }
+  void comesAfterLightThatIsPhotographed() {
+    QFETCH(bool, isLightOlder);
+    const QImage shown = noise({1024, 768}, 20), measured = noise({1024, 768}, 21);
+    auto light = std::make_unique<ProjectorWindow>(projector);
+    light->comeFirst();
+    ProjectorWindow show(projector);
+    if (!isLightOlder) {
+      light = std::make_unique<ProjectorWindow>(projector);
+      light->comeFirst();
+    }
+    show.shine();
+    show.present(shown);
+    QTRY_VERIFY(seenOn("DUMMY1") == shown);
+    light->shine();
+    light->present(measured);
+    QTRY_VERIFY(seenOn("DUMMY1") == measured);
+    for (int cycle = 1; cycle <= unplugCycles(3); ++cycle) {
+      unplug();
+      QTRY_VERIFY(!light->isShining() && !show.isShining());
+      plug();
+      QTRY_VERIFY(seenOn("DUMMY1") == measured);
+      QVERIFY(light->isShining() && !show.isShining());
+    }
+    // Asked for meanwhile it waits as well.
+    show.shine();
+    QVERIFY(!show.isShining());
+    light->stop();
+    QTRY_VERIFY(seenOn("DUMMY1") == shown);
+    // A window that is gone keeps nobody waiting.
+    light->shine();
+    QTRY_VERIFY(seenOn("DUMMY1") == measured);
+    unplug();
+    plug();
+    QTRY_VERIFY(light->isShining());
+    QVERIFY(!show.isShining());
+    light.reset();
+    QTRY_VERIFY(seenOn("DUMMY1") == shown);
+  }
+
   void waitsForADisplayThatIsNotThereYet() {
     unplug();
     ProjectorWindow window(projector);

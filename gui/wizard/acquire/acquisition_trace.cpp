@@ -19,6 +19,12 @@ bool isOf(const sentinels::Reading& reading, std::initializer_list<sentinels::Al
   return reading.alarm && std::find(kinds.begin(), kinds.end(), *reading.alarm) != kinds.end();
 }
 
+/// Also where the alarm is another one, of which there is one at a time.
+bool isRoomSteady(const sentinels::Reading& reading) {
+  const double off = std::abs(reading.roomLight - reading.roomLightExpected);
+  return !isOf(reading, {sentinels::AlarmKind::ambientChanged}) && off <= sentinels::reading_limit::roomLight;
+}
+
 QString reasonOf(sentinels::AlarmKind kind) {
   switch (kind) {
     case sentinels::AlarmKind::flicker:
@@ -190,7 +196,7 @@ std::optional<RoomLight> AcquisitionTrace::roomLight() const {
   // What is on record says nothing of now.
   if (points_.empty() || isRecalled_) return std::nullopt;
   const sentinels::Reading& now = points_.back().reading;
-  return RoomLight{now.roomLight, !isOf(now, {sentinels::AlarmKind::ambientChanged})};
+  return RoomLight{now.roomLight, isRoomSteady(now)};
 }
 
 std::array<WatchState, 4> AcquisitionTrace::states() const {
@@ -202,7 +208,7 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
   const sentinels::Reading& now = points_.back().reading;
   // What was put right is no longer so, and not looked at again before the next check.
   const bool isOver = now.alarm && (isPutRight_ || isAnswered());
-  bool room = !isOf(now, {sentinels::AlarmKind::ambientChanged});
+  bool room = isRoomSteady(now);
   bool view = !isOf(now, {sentinels::AlarmKind::moved, sentinels::AlarmKind::localChange,
                           sentinels::AlarmKind::mirroredScreen, sentinels::AlarmKind::wrongScreen,
                           sentinels::AlarmKind::coveredLens});

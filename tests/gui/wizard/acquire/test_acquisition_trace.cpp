@@ -132,7 +132,7 @@ class TestAcquisitionTrace : public QObject {
     QFETCH(int, state);
     AcquisitionTrace trace;
     trace.begin();
-    Reading reading = readingAt(40, 0.0085);
+    Reading reading = readingAt(40, 0.0065);  // within the limit
     reading.alarm = kind;
     trace.checked(reading);
     QCoreApplication::processEvents();
@@ -143,7 +143,7 @@ class TestAcquisitionTrace : public QObject {
       QCOMPARE(states[static_cast<std::size_t>(i)].isSteady, i != state);
     }
     QVERIFY2(
-        states[0].figure.contains(decimalText(0.85, 2)) && states[0].figure.contains(decimalText(0.55, 2)),
+        states[0].figure.contains(decimalText(0.65, 2)) && states[0].figure.contains(decimalText(0.35, 2)),
         qPrintable(states[0].figure));
     // Taken again, what was put right is no warning any more; whether it is good says the next check.
     trace.takenAgain({20, 21, RetakeReason::alarm, kind});
@@ -167,6 +167,21 @@ class TestAcquisitionTrace : public QObject {
     trace.checked(reading);
     QCoreApplication::processEvents();
     QVERIFY(trace.states()[0].isSteady && !trace.states()[3].isSteady);
+  }
+
+  /// Law: there is one alarm at a time, and no light beyond its limit is called steady beside it.
+  void otherLightIsNotSteady() {
+    for (double off : {0.9, 1.1}) {
+      AcquisitionTrace trace;
+      trace.begin();
+      Reading reading = readingAt(40);
+      reading.alarm = AlarmKind::projectorAsleep;
+      reading.roomLight = reading.roomLightExpected + off * reading_limit::roomLight;
+      trace.checked(reading);
+      QCoreApplication::processEvents();
+      QCOMPARE(trace.states()[0].isSteady, off < 1.0);
+      QCOMPARE(trace.roomLight()->isSteady, off < 1.0);
+    }
   }
 
   void whatIsTakenAgainIsListedNewestFirst() {

@@ -4017,6 +4017,14 @@
             <numerusform>قراءة لقطات %n نمط: ⁨%1⁩.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep the new one</source>
+        <translation>الاحتفاظ بالجديد</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement?</source>
+        <translation>استخدام القياس السابق؟</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

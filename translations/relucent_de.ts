@@ -3925,6 +3925,14 @@
             <numerusform>Liest die Fotos von %n Mustern: %1.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep the new one</source>
+        <translation>Neue behalten</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement?</source>
+        <translation>Frühere Messung verwenden?</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

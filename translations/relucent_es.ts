@@ -3925,6 +3925,14 @@
             <numerusform>Leyendo las fotografías de %n patrones: %1.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep the new one</source>
+        <translation>Conservar la nueva</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement?</source>
+        <translation>¿Usar la medición anterior?</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -3925,6 +3925,14 @@
             <numerusform>Lecture des photos de %n motifs : %1.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep the new one</source>
+        <translation>Garder la nouvelle</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement?</source>
+        <translation>Utiliser la mesure précédente ?</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -3925,6 +3925,14 @@
             <numerusform>Lettura delle foto di %n pattern: %1.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep the new one</source>
+        <translation>Tieni la nuova</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement?</source>
+        <translation>Usare la misura precedente?</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -3902,6 +3902,14 @@
             <numerusform>%n パターンの写真を読み込み中：%1</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep the new one</source>
+        <translation>新しい測定を残す</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement?</source>
+        <translation>前の測定を使いますか？</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -3902,6 +3902,14 @@
             <numerusform>正在读取 %n 个图案的照片：%1。</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep the new one</source>
+        <translation>保留新的测量</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement?</source>
+        <translation>使用较早的测量？</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

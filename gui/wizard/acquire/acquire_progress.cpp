@@ -136,12 +136,13 @@ void AcquirePage::stopAndKeep() {
 
 void AcquirePage::askToReturn() {
   // What has ended is a result, of which nothing is under way.
-  if (!isMeasuring() && again_ == 0) return returnToEarlier();
-  returnNow_->show(tr("Keep the earlier one"));
-  stayWithNew_->show(tr("Keep the new ones"));
+  const bool isResult = !isMeasuring() && again_ == 0;
+  returnNow_->show(isResult ? tr("Use the earlier one") : tr("Keep the earlier one"));
+  stayWithNew_->show(isResult ? tr("Keep the new one") : tr("Keep the new ones"));
   returning_ = std::make_unique<QObject>();
   FailureReport question;
-  question.failure.heading = tr("Keep the earlier measurement?");
+  question.failure.heading =
+      isResult ? tr("Use the earlier measurement?") : tr("Keep the earlier measurement?");
   question.failure.what =
       tr("The new photographs are set aside and not used again: measuring again then takes every photograph "
          "again.");

@@ -361,7 +361,14 @@ class TestAcquirePage : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
     QVERIFY(page.stoppedAt() > 1 && session_->result(Stage::acquisition)->folder != whole);
     QCOMPARE(page.secondary().front()->text(), AcquirePage::tr("Use the earlier one"));
+    // There is no way back to the new one: it is asked first.
+    const std::filesystem::path newer = session_->result(Stage::acquisition)->folder;
+    QSignalSpy asked(&page, &PageModel::failed);
     page.secondary().front()->trigger();
+    QCOMPARE(asked.size(), 1);
+    const auto question = asked.front().front().value<FailureReport>();
+    QVERIFY(question.isQuestion && session_->result(Stage::acquisition)->folder == newer);
+    question.goOn->trigger();
     QVERIFY(session_->result(Stage::acquisition)->folder == whole);
     QVERIFY(page.stoppedAt() == 0 && page.isDone() && !page.banner());
     QCOMPARE(page.secondary().size(), std::size_t{1});

@@ -136,7 +136,7 @@ void AcquirePage::stopAndKeep() {
 
 void AcquirePage::askToReturn() {
   // What has ended is a result, of which nothing is under way.
-  const bool isResult = !isMeasuring() && again_ == 0;
+  const bool isResult = isDone() && !isMeasuring();
   returnNow_->show(isResult ? tr("Use the earlier one") : tr("Keep the earlier one"));
   stayWithNew_->show(isResult ? tr("Keep the new one") : tr("Keep the new ones"));
   returning_ = std::make_unique<QObject>();

@@ -360,7 +360,8 @@ class TestWhileMeasuring : public QObject {
       QCOMPARE(asked.size(), 1);
       const auto question = asked.front().front().value<FailureReport>();
       QVERIFY(question.isQuestion && question.reason);
-      QVERIFY(isMeasuring ? acquire.isMeasuring() : acquire.photographsOfNew() > 0);
+      QVERIFY(isMeasuring ? acquire.isMeasuring() : acquire.status().state == StepState::outOfDate);
+      QCOMPARE(question.failure.heading, AcquirePage::tr("Keep the earlier measurement?"));
       question.resume->trigger();
       QVERIFY(!question.reason && commandNamed(back)->isEnabled());
       commandNamed(back)->trigger();

@@ -54,6 +54,7 @@ ProjectorWindow::ProjectorWindow(ScreenIdentity display, QWindow* parent)
 }
 
 ProjectorWindow::~ProjectorWindow() {
+  wanted_ = false;
   letOthersCome();
 }
 
@@ -77,7 +78,7 @@ void ProjectorWindow::shine() {
 }
 
 void ProjectorWindow::stop() {
-  lost_ = false;
+  wanted_ = lost_ = false;
   returning_.stop();
   returns_ = 0;
   vanish();
@@ -92,9 +93,9 @@ bool ProjectorWindow::waitsFor(const QScreen* screen) const {
   });
 }
 
-/// Whatever waited for this one.
+/// Whatever waited for this one, which is not wanted any more.
 void ProjectorWindow::letOthersCome() {
-  if (!std::exchange(wanted_, false) || !isFirst_) return;
+  if (!isFirst_) return;
   for (QWindow* window : QGuiApplication::topLevelWindows())
     if (auto* other = qobject_cast<ProjectorWindow*>(window); other != nullptr && other != this)
       other->screenCame();

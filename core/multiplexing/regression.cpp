@@ -18,6 +18,10 @@ constexpr float kindColours = 0.25f;
 constexpr float shownColours = 1.0f;
 // Of the equations, at least this share counts as not used up by unknowns.
 constexpr double leastFreedom = 0.15;
+// A leaf's light is a share of the pixel's. Photographs that say many times more contradict the floods, as
+// those of a pixel that was dark then and has moved: unbounded, such a row leaves first half and then single
+// precision.
+constexpr float mostLight = 8.0f;
 
 Eigen::Index at(std::size_t index) {
   return static_cast<Eigen::Index>(index);
@@ -169,7 +173,10 @@ void RowRegression::fillColumns(const Row& row, const RowLight& seen, Eigen::Ind
   for (Eigen::Index kind = 0; kind < kinds; ++kind)
     for (std::size_t k = 0; k < 3; ++k)
       variance += mixingOf(kind, k) * mixingOf(kind, k) * lumped_[k].col(kind).array();
-  const Eigen::ArrayXf weight = variance.isFinite().select(variance.rsqrt(), 0.0f);
+  Eigen::ArrayXf weight = variance.isFinite().select(variance.rsqrt(), 0.0f);
+  // What contradicts the floods by more than noise does, neither.
+  const Eigen::ArrayXf most = mostLight * (1.0f + seen.variance.col(c).max(0.0f).sqrt());
+  weight.head(equations_) = (seen.light.col(c).abs() <= most).select(weight.head(equations_), 0.0f);
   channel.seen = (weight.segment(floods_, equations_ - floods_) > 0.0f).count();
 
   Eigen::Index column = 0;
@@ -231,7 +238,7 @@ void RowRegression::solveLight(Row& row) {
     auto inverse = inverse_.row(j).segment(j, leaves_ - j).array();
     float rest = (inverse.square().transpose() * pivots.tail(leaves_ - j)).sum();
     determined_ += 1.0 - static_cast<double>(std::min(rest, 1.0f));
-    leaf.deviation = leaf.spread * std::sqrt(rest);
+    leaf.deviation = std::min(leaf.spread * std::sqrt(rest), mostLight);
   }
 }
 
@@ -307,7 +314,7 @@ void RowRegression::adopt(Row& row) {
     Leaf& leaf = row.leaves[j];
     auto kind = static_cast<std::size_t>(kinds_[j]);
     float before = std::max<float>(0.0f, leaf.light);
-    leaf.light = leaf.expected + leaf.spread * light_[at(j)];
+    leaf.light = std::clamp(leaf.expected + leaf.spread * light_[at(j)], -mostLight, mostLight);
     fit_.blocks[j] = leaf.light * row.mixing[kind] + before * off[kind];
   }
   for (std::size_t d = 0; d < details_.size(); ++d)

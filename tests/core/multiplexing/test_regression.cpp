@@ -161,6 +161,38 @@ class TestRegression : public QObject {
     for (std::size_t j = 0; j < blocks.size(); ++j) QVERIFY(blocks[j] == fit.blocks[j]);
   }
 
+  /// Law: a pixel that was dark in the floods and sees much light later, since the camera was moved, comes to
+  /// numbers, however little they fit.
+  void whatContradictsTheFloodsStaysFinite_data() {
+    QTest::addColumn<float>("brighter");
+    QTest::addColumn<float>("deviation");
+    for (float brighter : {3.0f, 30.0f, 300.0f, 1000.0f})
+      for (float deviation : {1e-4f, 1e-2f, 1.0f})
+        QTest::addRow("%g times, known to %g", static_cast<double>(brighter), static_cast<double>(deviation))
+            << brighter << deviation;
+  }
+  void whatContradictsTheFloodsStaysFinite() {
+    QFETCH(float, brighter);
+    QFETCH(float, deviation);
+    Scene scene(60);
+    RowLight seen = scene.seen(0.01f);
+    Random random{7};
+    for (Eigen::Index n = 6; n < seen.light.rows(); ++n)
+      for (Eigen::Index c = 0; c < 3; ++c) seen.light(n, c) = brighter * random.uniformFloat();
+    seen.variance.bottomRows(seen.light.rows() - 6) = deviation * deviation;
+    RowRegression regression(scene.means, {});
+    for (int times = 0; times < 12; ++times) {
+      const RowFit& fit = regression.solve(scene.row, seen);
+      QVERIFY2(std::isfinite(fit.misfit) && fit.flood.isFinite().all(), qPrintable(QString::number(times)));
+      QVERIFY(regression.floodVariance(scene.row).isFinite().all());
+      for (const ColourBlock& block : fit.blocks) QVERIFY(block.allFinite());
+      for (const Leaf& leaf : scene.row.leaves)
+        QVERIFY(std::isfinite(static_cast<float>(leaf.light)) &&
+                std::isfinite(static_cast<float>(leaf.deviation)));
+      learn(scene.row, fit, bothFloods(scene), {});
+    }
+  }
+
   void predictionsAreThoseOfTheFit() {
     Scene scene(60);
     RowRegression regression(scene.means, {});

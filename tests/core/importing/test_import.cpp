@@ -11,7 +11,6 @@
 #include "relucent/base/error.h"
 #include "relucent/base/random.h"
 #include "relucent/importing/pattern_plan.h"
-#include "support/sanitized.h"
 #include "support/scripted_rig.h"
 #include "support/stopped.h"
 
@@ -151,7 +150,7 @@ class TestImport : public QObject {
  private slots:
   void recoversALocalTransport_data() {
     QTest::addColumn<int>("seed");
-    for (int seed = 1; seed <= (isSanitized ? 1 : 3); ++seed) QTest::addRow("%d", seed) << seed;
+    for (int seed = 1; seed <= 3; ++seed) QTest::addRow("%d", seed) << seed;
   }
   void recoversALocalTransport() {
     QFETCH(int, seed);
@@ -267,7 +266,7 @@ class TestImport : public QObject {
   void findsTheProjectorsResponse_data() {
     QTest::addColumn<double>("gamma");
     QTest::addRow("1.6") << 1.6;
-    if (!isSanitized) QTest::addRow("2.8") << 2.8;
+    QTest::addRow("2.8") << 2.8;
   }
   void findsTheProjectorsResponse() {
     QFETCH(double, gamma);

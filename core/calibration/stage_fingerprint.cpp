@@ -13,8 +13,8 @@ std::string hashOf(const Json& json) {
 }
 
 /// What the stages after `stage` are given.
-std::string fingerprintOfResult(const CalibrationFolder& folder, Stage stage) {
-  const std::string inputs = fingerprintOf(folder, stage);
+std::string fingerprintOfResult(const CalibrationFolder& folder, Stage stage, const Json& settings) {
+  const std::string inputs = fingerprintOf(folder, stage, settings);
   if (stage != Stage::acquisition) return inputs;
   const std::optional<StageResult> measured = folder.find(stage, inputs);
   if (!measured) {
@@ -46,11 +46,16 @@ std::string fingerprintAfter(const std::string& inputs, const StageDescription& 
   return fingerprint;
 }
 
-std::string fingerprintOf(const CalibrationFolder& folder, Stage stage) {
+std::string fingerprintOf(const CalibrationFolder& folder, Stage stage, const Json& settings) {
   const StageDescription& description = descriptionOf(stage);
-  const std::string inputs =
-      description.predecessor ? fingerprintOfResult(folder, *description.predecessor) : hashOf(folder.rig());
-  return fingerprintAfter(inputs, description, folder.settings());
+  const std::string inputs = description.predecessor
+                                 ? fingerprintOfResult(folder, *description.predecessor, settings)
+                                 : hashOf(folder.rig());
+  return fingerprintAfter(inputs, description, settings);
+}
+
+std::string fingerprintOf(const CalibrationFolder& folder, Stage stage) {
+  return fingerprintOf(folder, stage, folder.settings());
 }
 
 }  // namespace relucent::calibration

@@ -14,6 +14,8 @@ namespace relucent::calibration {
 /// another than the one that went on, though its settings are the same: what follows from it knows where it
 /// was stopped. So is an earlier measurement, which is used until there is one for the settings as they are.
 std::string fingerprintOf(const CalibrationFolder& folder, Stage stage);
+/// The same if the settings were these.
+std::string fingerprintOf(const CalibrationFolder& folder, Stage stage, const Json& settings);
 
 /// One link of that chain:
 ///   f_0 = inputs;  f_k = hash{inputs: f_(k-1), stage: section k, settings: what the manifest says of it}

@@ -13,7 +13,6 @@
 #include "relucent/base/file.h"
 #include "relucent/calibration/json.h"
 #include "relucent/calibration/stage_fingerprint.h"
-#include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::pipeline {
@@ -142,6 +141,15 @@ bool hasEarlier(const CalibrationFolder& folder, Stage stage) {
 
 bool mayReturnToEarlier(const CalibrationFolder& folder, Stage stage) {
   return !folder.isCurrent(stage, calibration::fingerprintOf(folder, stage)) && hasEarlier(folder, stage);
+}
+
+calibration::StageProgress progressInUse(const CalibrationFolder& folder, Stage stage, Stage again) {
+  const calibration::StageProgress progress = calibration::progressOf(folder, stage);
+  if (progress != calibration::StageProgress::stale || !mayReturnToEarlier(folder, again)) return progress;
+  const std::optional<Json> settings = earlierSettings(folder, again);
+  return folder.find(stage, calibration::fingerprintOf(folder, stage, *settings))
+             ? calibration::StageProgress::done
+             : progress;
 }
 
 void returnToEarlier(CalibrationFolder& folder, Stage stage) {

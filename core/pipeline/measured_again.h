@@ -2,6 +2,7 @@
 #pragma once
 
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/calibration/stage_progress.h"
 
 /// Measuring a stage again that has a result, and back to that result. Of linearization and acquisition.
 namespace relucent::pipeline {
@@ -20,6 +21,11 @@ bool hasEarlier(const calibration::CalibrationFolder& folder, calibration::Stage
 
 /// Whether there is, and measuring again has no result yet.
 bool mayReturnToEarlier(const calibration::CalibrationFolder& folder, calibration::Stage stage);
+
+/// Where a stage stands while `again`, before it, may have been measured again: done, too, where it follows
+/// from the result that is used until there is a new one.
+calibration::StageProgress progressInUse(const calibration::CalibrationFolder& folder,
+                                         calibration::Stage stage, calibration::Stage again);
 
 /// Takes measureAgain() back: the earlier result is current again, and what followed from it, and its
 /// photographs, where they are kept, are in the journal. The new ones are set aside. Nothing where

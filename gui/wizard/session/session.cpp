@@ -250,6 +250,11 @@ void Session::look(const calibration::CalibrationFolder& folder) {
     state.mayReturn = pipeline::mayReturnToEarlier(folder, stage);
     state.hasEarlier = pipeline::hasEarlier(folder, stage);
   }
+  // What was decided on a measurement counts as long as that is used.
+  for (calibration::Stage stage : {calibration::Stage::threshold, calibration::Stage::inverse,
+                                   calibration::Stage::clustering, calibration::Stage::content})
+    stages_[static_cast<std::size_t>(stage)].progress =
+        pipeline::progressInUse(folder, stage, calibration::Stage::acquisition);
 }
 
 void Session::reload() {

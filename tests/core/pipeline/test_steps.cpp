@@ -361,6 +361,31 @@ class TestSteps : public QObject {
     QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::stale);
   }
 
+  /// Law: while a measurement is made again, what followed from the one that is used stands as it stood, and
+  /// what did not follow from it does not.
+  void whatFollowsFromTheEarlierStandsMeanwhile() {
+    Progress quiet;
+    CalibrationFolder folder = beginCalibration(path("meanwhile"), tiny());
+    OpenedRig devices = openRig(settingsOf(folder).rig, path("cache"), quiet);
+    measureLinearization(folder, devices.rig, quiet);
+    decideEverything(folder);
+    const auto inUse = [&folder](Stage stage) { return progressInUse(folder, stage, Stage::linearization); };
+    const auto decided = {Stage::threshold, Stage::clustering, Stage::content};
+    for (Stage stage : decided) QVERIFY(inUse(stage) == StageProgress::done);
+    measureAgain(folder, Stage::linearization);
+    for (Stage stage : decided) {
+      QVERIFY(progressOf(folder, stage) == StageProgress::stale);
+      QVERIFY(inUse(stage) == StageProgress::done);
+    }
+    QVERIFY(inUse(Stage::linearization) == StageProgress::stale);
+    // Other clusters than were decided on are others than are used.
+    CalibrateSettings changed = settingsOf(folder);
+    changed.clustering.patchRadius += 1.0;
+    changeSettings(folder, changed);
+    QVERIFY(inUse(Stage::threshold) == StageProgress::done);
+    QVERIFY(inUse(Stage::clustering) == StageProgress::stale);
+  }
+
   /// Law: what is in use stays in use until there is something new: also what was gone back to after it had
   /// been measured again, and then a third measurement begins and has no result yet.
   void whatWasGoneBackToStaysInUse_data() {

@@ -356,13 +356,14 @@ std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {
 }
 
 Alarm flickerAlarm(double apart) {
-  return alarm(AlarmKind::flicker,
-               RELUCENT_MESSAGE("alarm.light-flickers",
-                                "the light flickers: photographs of one pattern differ by {} %")
-                   .with(as::share(apart, as::decimals(1))),
-               RELUCENT_MESSAGE("alarm.switch-off-dimmed-lamps",
-                                "switch off dimmed and fluorescent lamps and the projector's power saving, "
-                                "then try again"));
+  return alarm(
+      AlarmKind::flicker,
+      RELUCENT_MESSAGE("alarm.light-flickers",
+                       "the light flickers or was switched: photographs of one pattern differ by {} %")
+          .with(as::share(apart, as::decimals(1))),
+      RELUCENT_MESSAGE("alarm.switch-off-dimmed-lamps",
+                       "switch off dimmed and fluorescent lamps and the projector's power saving, "
+                       "then try again"));
 }
 
 Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views) {

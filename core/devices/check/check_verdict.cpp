@@ -29,10 +29,9 @@ Message messageOf(const CheckVerdict& verdict) {
     case Finding::screenNotSeen:
       return RELUCENT_MESSAGE("check.screen-not-seen", "The camera does not see {}.").with(verdict.screen);
     case Finding::pictureOut:
-      return RELUCENT_PLURAL_MESSAGE("check.picture-out",
-                                     "A picture appears {} frames after it is sent: {} ms are waited for.",
-                                     "A picture appears {} frame after it is sent: {} ms are waited for.")
-          .with(verdict.count, as::milliseconds(verdict.seconds, as::decimals(0)));
+      return RELUCENT_MESSAGE("check.picture-takes",
+                              "A picture takes {} ms to appear: each one is waited for that long.")
+          .with(as::milliseconds(verdict.seconds, as::decimals(0)));
     case Finding::whiteChanges:
       return RELUCENT_MESSAGE("check.white-changes",
                               "White changes by {} % from photograph to photograph: expose whole frames of "

@@ -60,7 +60,7 @@ class TestVerdictText : public QObject {
     row(Finding::picturesLate, {"7"});
     row(Finding::otherScreenSeen, {"Stage (HDMI-1)", "Foyer (HDMI-2)"});
     row(Finding::screenNotSeen, {"Stage (HDMI-1)"});
-    row(Finding::pictureOut, {"7", "46 MS"});
+    row(Finding::pictureOut, {"46 MS"});
     row(Finding::whiteChanges, {"12,3 %", "20,00 MS"});
     row(Finding::lightUnsteady, {"12,3 %"});
     row(Finding::lampFlickers, {"12 %", "45,6 MS", "20,00 MS"});

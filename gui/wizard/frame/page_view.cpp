@@ -5,10 +5,10 @@
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QScrollArea>
-#include <QScrollBar>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
+#include "wizard/frame/steady_scroll.h"
 
 namespace relucent::gui {
 
@@ -32,15 +32,6 @@ class LeavesUndo : public QObject {
 
  private:
   QLineEdit* field_;
-};
-
-/// Each visit of a page begins at its top, where what matters most stands.
-class InspectorScroll : public QScrollArea {
- protected:
-  void showEvent(QShowEvent* event) override {
-    if (!event->spontaneous()) verticalScrollBar()->setValue(0);
-    QScrollArea::showEvent(event);
-  }
 };
 
 }  // namespace
@@ -93,11 +84,7 @@ void leaveUndoToThePage(QWidget* widget, QLineEdit* field) {
 
 QWidget* inspectorCard(QVBoxLayout*& contents) {
   auto* card = new Card;
-  auto* scroll = new InspectorScroll;
-  scroll->setWidgetResizable(true);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setFocusPolicy(Qt::NoFocus);
-  scroll->setFrameShape(QFrame::NoFrame);
+  auto* scroll = new SteadyScroll;
   auto* inside = new QWidget;
   contents = new QVBoxLayout(inside);
   // The scroll bar stands where lines end.

@@ -23,7 +23,7 @@ namespace relucent::gui {
 namespace {
 
 /// Half a Full HD screen, on a desktop that scales by two, with what it puts round a window.
-constexpr QSize leastSize(800, 440);
+constexpr QSize leastSize(940, 440);  // half of Full HD, less what a desktop takes
 constexpr int narrowBelow = 1100, lowBelow = 640, narrowRail = 64, lowHeader = 48;
 
 /// The one folder or calibration's file that is dragged; empty: neither.
@@ -82,7 +82,7 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
   right->addWidget(actions_ = new ActionBar(wizard_));
   upper->addLayout(right, 1);
   rows->addLayout(upper, 1);
-  rows->addWidget(new StatusStrip(session_));
+  rows->addWidget(strip_ = new StatusStrip(session_));
   setCentralWidget(whole);
   setMinimumSize(leastSize);
 
@@ -202,13 +202,8 @@ void MainWindow::bindKeys() {
   key(QKeySequence("Alt+Left"), [this] { wizard_.back(); });
   key(QKeySequence("Ctrl+Return"), [this] { actions_->runPrimary(); });
   key(QKeySequence("Ctrl+Enter"), [this] { actions_->runPrimary(); });
-  // Taken back is only what can be changed.
-  key(QKeySequence("Ctrl+Z"), [this] {
-    if (PageModel& page = wizard_.currentPage(); page.whyLocked().isEmpty()) page.undoStack().undo();
-  });
-  const auto redo = [this] {
-    if (PageModel& page = wizard_.currentPage(); page.whyLocked().isEmpty()) page.undoStack().redo();
-  };
+  key(QKeySequence("Ctrl+Z"), [this] { undo(); });
+  const auto redo = [this] { this->redo(); };
   key(QKeySequence("Ctrl+Shift+Z"), redo);
   key(QKeySequence("Ctrl+Y"), redo);
   key(QKeySequence("F1"), [this] { showHelp(); });
@@ -222,48 +217,44 @@ void MainWindow::setFullScreen(bool whole) {
   setWindowState(windowState().setFlag(Qt::WindowFullScreen, whole));
 }
 
+/// By nobody: of what cannot be pressed any more, the focus goes to whatever is next, for which the next key
+/// was never meant: the page would be left, a show installed, the room said to be clear.
+bool MainWindow::isPassedOn(const QWidget* before, const QWidget* now) const {
+  if (before == nullptr || now == nullptr || !isAncestorOf(before) || !isAncestorOf(now)) return false;
+  // What comes after it in a list on the stage is as good.
+  if (stages_->isAncestorOf(before) && stages_->isAncestorOf(now)) return false;
+  return !(before->isVisible() && before->isEnabled());
+}
+
 void MainWindow::followFocus(QWidget* before, QWidget* now) {
-  // Not by the user: of what he cannot press any more, the focus goes to whatever is next.
-  if (before != nullptr && now != nullptr && inspectors_->isAncestorOf(before) && isAncestorOf(now) &&
-      now != inspectors_ && !(before->isVisible() && before->isEnabled())) {
+  if (!isPassedOn(before, now)) {
+    if (now != inspectors_) forgetKeptFocus();  // somebody went elsewhere
+    // What is clicked is in sight and must not move under the pointer; nor does anything when a button that
+    // started something can be pressed again.
+    const bool isClicked = QGuiApplication::mouseButtons() != Qt::NoButton;
+    if (now != nullptr && isAncestorOf(now) && !isClicked && !isReturning_) bringIntoSight(now);
+    return;
+  }
+  if (now == inspectors_ || now == stages_) return;
+  // A button of the inspector that started something has it again when it can be pressed again.
+  if (inspectors_->isAncestorOf(before)) {
     if (focusKept_ == nullptr) {
       focusKept_ = before;
       before->installEventFilter(this);
     }
-    return keepFocus(*now);
+    inspectors_->setFocus();
+    QMetaObject::invokeMethod(this, &MainWindow::returnKeptFocus, Qt::QueuedConnection);
+    return;
   }
-  if (now != inspectors_) forgetKeptFocus();  // somebody went elsewhere
-  // What is clicked is in sight and must not move under the pointer.
-  if (now != nullptr && isAncestorOf(now) && QGuiApplication::mouseButtons() == Qt::NoButton)
-    bringIntoSight(now);
-  // What is done or has gone, a button of the action bar or a picture on the stage, would leave its focus to
-  // the rail or to Back, which are next: Enter would then leave the page.
-  if (before == nullptr || now == nullptr || !isAncestorOf(before)) return;
-  if (!rail_->isAncestorOf(now) && !actions_->leadsBack(*now)) return;
-  if (before->isVisible() && before->isEnabled()) return;
+  stages_->setFocus();
   // Once the stage knows what has ended, unless another page has the focus by then.
   QMetaObject::invokeMethod(
       this,
-      [this, taken = QPointer<QWidget>(now)] {
-        if (focusWidget() != taken) return;
-        // Where nothing on the stage takes it, nobody has it.
-        if (!focusFirst(stages_)) stages_->setFocus();
+      [this] {
+        if (focusWidget() != stages_) return;
+        focusFirst(stages_);  // where nothing takes it, the stage itself has it
         focusLent_ = focusWidget();
         returnFocus();
-      },
-      Qt::QueuedConnection);
-}
-
-/// A button of the inspector that started something, and cannot be pressed meanwhile, leaves its focus to the
-/// next one, which its key was never meant for. The inspector itself has it until the button can be pressed
-/// again.
-void MainWindow::keepFocus(const QWidget& now) {
-  QMetaObject::invokeMethod(
-      this,
-      [this, taken = QPointer<const QWidget>(&now)] {
-        if (focusWidget() != taken) return;
-        inspectors_->setFocus();
-        returnKeptFocus();
       },
       Qt::QueuedConnection);
 }
@@ -273,7 +264,9 @@ void MainWindow::returnKeptFocus() {
   if (focusWidget() != inspectors_ || !focusKept_->isVisible() || !focusKept_->isEnabled()) return;
   QWidget* kept = focusKept_;
   forgetKeptFocus();
+  isReturning_ = true;
   kept->setFocus();
+  isReturning_ = false;
 }
 
 void MainWindow::forgetKeptFocus() {
@@ -307,6 +300,24 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     return button->click();
   if (event->key() == Qt::Key_Escape && isFullScreen()) return setFullScreen(false);
   QMainWindow::keyPressEvent(event);
+}
+
+/// Taken back is only what can be changed. What that was is said: it may be out of sight, and another change
+/// than the one that somebody thinks of, since not all can be taken back.
+void MainWindow::undo() {
+  PageModel& page = wizard_.currentPage();
+  if (!page.whyLocked().isEmpty()) return;
+  QUndoStack& changes = page.undoStack();
+  strip_->say(changes.canUndo() ? tr("Undone: %1").arg(changes.undoText()) : tr("Nothing to undo here"));
+  changes.undo();
+}
+
+void MainWindow::redo() {
+  PageModel& page = wizard_.currentPage();
+  if (!page.whyLocked().isEmpty()) return;
+  QUndoStack& changes = page.undoStack();
+  strip_->say(changes.canRedo() ? tr("Done again: %1").arg(changes.redoText()) : tr("Nothing to do again"));
+  changes.redo();
 }
 
 void MainWindow::moveToNextRegion() {

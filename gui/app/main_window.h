@@ -57,11 +57,13 @@ class MainWindow : public QMainWindow {
   void setFullScreen(bool whole);
   void refresh();
   void moveToNextRegion();
+  void undo();
+  void redo();
   void returnFocus();
   void returnKeptFocus();
   void forgetKeptFocus();
   void followFocus(QWidget* before, QWidget* now);
-  void keepFocus(const QWidget& now);
+  bool isPassedOn(const QWidget* before, const QWidget* now) const;
   void tell(const PageModel& page, const FailureReport& report);
   void closeOnceDevicesAreFree();
 
@@ -74,8 +76,10 @@ class MainWindow : public QMainWindow {
   BannerBar* banner_;
   bool hasWorked_ = false;       // the page that is looked at
   QPointer<QWidget> focusKept_;  // of a button in the inspector that cannot be pressed now
+  bool isReturning_ = false;     // the focus that was kept
   QPointer<QWidget> focusLent_;  // until the command that had it can be given again
   ActionBar* actions_;
+  StatusStrip* strip_;
   QWidget* header_;
   EndQuestion endQuestion_;
   bool asksBeforeClosing_ = true;

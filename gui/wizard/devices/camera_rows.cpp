@@ -115,6 +115,7 @@ QWidget* CameraRows::rowOf(std::size_t index) {
   row->addLayout(texts, 1);
   const Offer offer = offering_(camera, name);
   QPushButton* choose = buttonOf(offer.text);
+  choose->setObjectName("choose-camera");
   choose->setAccessibleName(offer.accessibleName);
   // The row says it.
   setPossible(choose, camera.usable && offer.isPossible,

@@ -25,8 +25,6 @@ class ActionBar : public QFrame {
 
  public:
   explicit ActionBar(Wizard& wizard, QWidget* parent = nullptr);
-  /// It is the button that leaves the page.
-  bool leadsBack(const QWidget& widget) const { return &widget == back_; }
   /// Triggers the primary command if it is enabled.
   void runPrimary();
   /// The primary command has the focus; false if it is not possible now.

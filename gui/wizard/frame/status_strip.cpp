@@ -69,6 +69,7 @@ StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), se
   room_ = roomLight_->parentWidget();
   row->addStretch(1);
   row->addWidget(saved_ = new Fact);
+  saved_->setObjectName("strip-saved");
   often_.setInterval(5000);
   connect(&often_, &QTimer::timeout, this, &StatusStrip::refresh);
   for (auto signal :
@@ -77,6 +78,11 @@ StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), se
   connect(qApp, &QGuiApplication::screenAdded, this, &StatusStrip::refresh);
   connect(qApp, &QGuiApplication::screenRemoved, this, &StatusStrip::refresh);
   often_.start();
+  said_.setSingleShot(true);
+  connect(&said_, &QTimer::timeout, this, [this] {
+    setRole(saved_, "note");
+    refresh();
+  });
   refresh();
 }
 
@@ -92,6 +98,13 @@ QString StatusStrip::missingScreen() const {
         screen && findScreen(identityOf(screen->display)) == nullptr)
       return QString::fromStdString(screen->display.connector);
   return {};
+}
+
+void StatusStrip::say(const QString& sentence) {
+  constexpr int seconds = 8;
+  said_.start(1000 * seconds);
+  saved_->setWhole(sentence);
+  setRole(saved_, "strong");
 }
 
 bool StatusStrip::isScreenThere() const {
@@ -139,7 +152,7 @@ void StatusStrip::refresh() {
     projector_->setWhole(tr("none in use"));
     camera_->setWhole(tr("none in use"));
     showDisk(QDir::homePath());
-    saved_->setWhole({});
+    if (!said_.isActive()) saved_->setWhole({});
     return;
   }
   projector_->setWhole(projectorText());
@@ -169,6 +182,7 @@ void StatusStrip::refresh() {
     lastPhotograph_ = QDateTime::currentDateTime();
   if (!session_.isMeasuring()) lastPhotograph_ = {};
   if (lastPhotograph_.isValid()) when = lastPhotograph_;
+  if (said_.isActive()) return;
   saved_->setWhole(
       when.isValid() ? tr("Saved %1").arg(QLocale().toString(when.toLocalTime().time(), QLocale::ShortFormat))
                      : QString());

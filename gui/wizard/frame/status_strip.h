@@ -18,6 +18,8 @@ class StatusStrip : public QFrame {
 
  public:
   explicit StatusStrip(Session& session, QWidget* parent = nullptr);
+  /// For some seconds, in place of the last saved state.
+  void say(const QString& sentence);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -36,7 +38,7 @@ class StatusStrip : public QFrame {
   std::vector<QLabel*> names_;
   int photographs_ = 0;
   QDateTime lastPhotograph_;
-  QTimer often_;
+  QTimer often_, said_;
 };
 
 }  // namespace relucent::gui

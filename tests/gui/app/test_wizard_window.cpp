@@ -194,6 +194,38 @@ class TestWizardWindow : public QObject {
     wizard_->page<VenuePage>().setMode(VenuePage::Mode::start);
   }
 
+  /// Law: what goes when it is pressed leaves the next key to nobody: the room is said to be clear by whoever
+  /// means it.
+  void whatGoesLeavesItsKeyToNobody() {
+    auto& venue = wizard_->page<VenuePage>();
+    devices::ListedCamera camera;
+    camera.address = "genicam:1";
+    camera.model = Message::plain("Camera");
+    camera.usable = true;
+    camera.traits.size = {64, 48};
+    venue.finder().setLister([camera] { return devices::CameraList{{}, {camera}}; });
+    venue.setMode(VenuePage::Mode::devices);
+    venue.finder().look();
+    QTRY_VERIFY(!venue.finder().isLooking());
+    wizard_->window().activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
+    const auto* tick = find<QAbstractButton>("room-is-clear");
+    for (int times = 0; times < 2; ++times) {  // added, removed
+      QTRY_VERIFY(find<QAbstractButton>("choose-camera")->isVisible());
+      auto* choose = find<QAbstractButton>("choose-camera");
+      choose->setFocus();
+      for (int presses = 0; presses < 2; ++presses) {
+        QWidget* focus = wizard_->window().focusWidget();
+        QTest::keyClick(focus != nullptr ? focus : &wizard_->window(), Qt::Key_Space);
+        QVERIFY(!tick->isChecked() && !tick->hasFocus());
+      }
+      QCoreApplication::processEvents();
+      QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+      QVERIFY(!tick->hasFocus());
+    }
+    venue.setMode(VenuePage::Mode::start);
+  }
+
   void enterOnTheOpenStepLeadsIntoIt() {
     auto* step = find<QAbstractButton>("step-1");
     step->setFocus();
@@ -550,6 +582,9 @@ class TestWizardWindow : public QObject {
     QCOMPARE(list->count(), 1);
     press(QKeySequence("Ctrl+Z"));
     QCOMPARE(list->count(), 2);
+    // What was taken back is said, and what it was.
+    const QString said = find<QLabel>("strip-saved")->accessibleName();
+    QVERIFY2(said.startsWith("Undone: ") && said.size() > QString("Undone: ").size(), qPrintable(said));
     QVERIFY(QFileInfo::exists(output.playlist().file()));
     list->setCurrentRow(1);
     click("playlist-remove");

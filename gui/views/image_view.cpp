@@ -49,6 +49,15 @@ void ImageView::setDivider(double share) {
   refresh();
 }
 
+void ImageView::divideWithin(double left, double right) {
+  const QRectF whole = target(), room = frame();
+  if (picture_.isNull() || whole.isEmpty() || room.isEmpty()) return;
+  const auto shareAt = [&](double column) {
+    return (whole.left() + column / picture_.width() * whole.width() - room.left()) / room.width();
+  };
+  if (divider_ < shareAt(left) || divider_ > shareAt(right)) setDivider(shareAt(0.5 * (left + right)));
+}
+
 QRectF ImageView::frame() const {
   const bool hasBar = (scale_ || keepsRoom_) && !picture_.isNull();
   return QRectF(rect()).adjusted(0, 0, hasBar ? -scaleWidth : 0.0, 0);

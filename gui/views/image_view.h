@@ -27,6 +27,8 @@ class ImageView : public PlaneView {
   void setCompared(const QImage& right, const QString& leftText, const QString& rightText);
   double divider() const { return divider_; }
   void setDivider(double share);
+  /// Moves it to the middle of these columns of the picture, unless it is between them.
+  void divideWithin(double left, double right);
   /// Position of the labels at the left or right of the divider.
   QRectF dividerTag(bool right) const;
 

@@ -4,6 +4,10 @@
 #include <QPainter>
 #include <QPointer>
 #include <QScrollArea>
+#include <algorithm>
+#include <optional>
+#include <ranges>
+#include <utility>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -222,6 +226,7 @@ class PreviewStage : public QWidget {
                                  page_.settings().method == compensation::Method::none
                                      ? PreviewPage::tr("Uncorrected, too")
                                      : PreviewPage::tr("Corrected, predicted"));
+    divideContent(view);
     ColourScale reach{ColourMap::viridis, 0.02, 4.0, true};
     views_[reachable]->setScale(reach, PreviewPage::tr("of white"), true);
     views_[reachable]->setPicture(mapped(view.reach, size, reach));
@@ -239,6 +244,12 @@ class PreviewStage : public QWidget {
     showContradiction();
   }
 
+  /// Wherever the content is placed, both halves of it are to be seen at first.
+  void divideContent(const ViewPreview& view) {
+    if (!view.corners || std::exchange(divided_, view.corners) == view.corners) return;
+    const auto [left, right] = std::ranges::minmax(*view.corners | std::views::elements<0>);
+    views_[picture]->divideWithin(left, right);
+  }
   void offer(Shown kind, bool isOffered) {
     kind_->setOffered(kind, isOffered);
     if (isOffered || kind_->current() != kind) return;
@@ -288,6 +299,7 @@ class PreviewStage : public QWidget {
   std::shared_ptr<const ContentPreview> shown_;
   std::shared_ptr<const compensation::Contradiction> contradiction_;  // of it
   std::size_t camera_ = 0;                                            // of it
+  std::optional<compensation::Corners> divided_;  // the place that the divider was moved to, if at all
 };
 
 }  // namespace

@@ -21,10 +21,10 @@ constexpr std::size_t rememberedArrivals = 8;
 constexpr float clipped = 0.98f;
 constexpr double mostClipped = 0.02;
 
-bool isOverexposed(const image::Image& signal) {
+double clippedShare(const image::Image& signal) {
   const std::vector<float>& samples = signal.data();
   auto count = std::count_if(samples.begin(), samples.end(), [](float value) { return value > clipped; });
-  return static_cast<double>(count) > mostClipped * static_cast<double>(samples.size());
+  return static_cast<double>(count) / static_cast<double>(samples.size());
 }
 
 }  // namespace
@@ -144,7 +144,13 @@ void LiveRig::photographed(std::size_t index, const rig::CaptureRequest& request
     Photographed& photographed = at(cameras_, index);
     photographed.frame = frame;
     photographed.request = request;
-    if (isFloodlit() && !isOverexposed(frame.signal)) photographed.floodlight = {frame.signal, photographs_};
+    if (isFloodlit()) {
+      // Where every exposure is too bright for parts of it, the least one.
+      const double share = clippedShare(frame.signal);
+      Floodlight& floodlight = photographed.floodlight;
+      if (floodlight.number == 0 || share <= std::max(mostClipped, floodlight.clipped))
+        floodlight = {frame.signal, photographs_, share};
+    }
     if (index == 0) ramps_.add(patterns_, frame);
     if (since_.isValid() && since_.elapsed() < interval_) return;
     since_.start();

@@ -67,10 +67,11 @@ class LiveRig : public QObject, public rig::RigWatcher {
   /// Empty pictures for devices that do not exist.
   LivePictures pictures(std::size_t projector = 0, std::size_t camera = 0) const;
   /// The last photograph of a camera, not overexposed, of fully white projectors, some of which may be dark;
-  /// and its number, 0: none.
+  /// and its number, 0: none. Where all of them are overexposed, one that is so in the smallest share.
   struct Floodlight {
     image::Image signal;
     int number = 0;
+    double clipped = 0.0;  // share of its samples
   };
   Floodlight floodlight(std::size_t camera = 0) const;
   int floodlightNumber(std::size_t camera = 0) const;

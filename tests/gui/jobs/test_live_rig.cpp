@@ -203,6 +203,22 @@ class TestLiveRig : public QObject {
     QVERIFY(live.floodlight(1).signal.empty());
   }
 
+  /// Where every exposure is too bright for parts of it, as of lamps in the view, it is the least one.
+  void ofOverexposedFloodlightsTheLeastIsKept() {
+    LiveRig live(0);
+    live.shown(0, Image({2, 2}, 3, 1.0f));
+    int number = 0, kept = 0;
+    for (int clipped : {3, 2, 4, 2, 1, 3}) {
+      RawFrame frame = lit(0.5f);
+      frame.signal = Image({2, 2}, 3, 0.5f);
+      for (int i = 0; i < 3 * clipped; ++i) frame.signal.data()[static_cast<std::size_t>(i)] = 1.0f;
+      live.photographed(0, {}, frame);
+      ++number;
+      if (number == 1 || number == 2 || number == 4 || number == 5) kept = number;
+      QCOMPARE(live.floodlightNumber(), kept);
+    }
+  }
+
   /// Black belongs to both; a light that shines alone is its projector's; together they are told apart.
   void everyProjectorHasItsRamps() {
     constexpr Size size{12, 12};

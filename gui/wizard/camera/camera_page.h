@@ -136,6 +136,7 @@ class CameraPage : public DevicePage {
   void keepLook();
   void keepExposureUnit(double seconds);
   void forget();
+  QString whyNoChecks() const;
   void forgetChecks();
   void learnBest();
   void keepPixels(const reduction::PixelUse& use);

@@ -301,9 +301,10 @@ class CameraStage : public Card {
     dark_->setVisible(isAlone && look && look->check.tooDark > 0.0);
     if (!look) return setSubtitle({});
     setSubtitle(
-        isOverlap()
-            ? CameraPage::tr("how many projectors light each place")
-            : CameraPage::tr("exposure %1, click to judge focus").arg(exposureText(look->frame.seconds)));
+        isOverlap() ? CameraPage::tr("how many projectors light each place")
+        : model_.isLooking()
+            ? CameraPage::tr("exposure %1, click to judge focus").arg(exposureText(look->frame.seconds))
+            : CameraPage::tr("as it was seen last, exposure %1").arg(exposureText(look->frame.seconds)));
     bright_->setText(CameraPage::tr("Too bright %1").arg(percentText(look->check.tooBright)));
     dark_->setText(CameraPage::tr("Too dark %1").arg(percentText(look->check.tooDark)));
   }
@@ -321,7 +322,9 @@ class CameraInspector {
   static QWidget* make(CameraPage& model) {
     QVBoxLayout* column = nullptr;
     QWidget* card = inspectorCard(column);
-    // First what is looked at while somebody turns the lens or aims, and what stands against going on.
+    // Above the fold: nothing is looked at without it.
+    column->addWidget(consentWidget(model));
+    // Then what is looked at while somebody turns the lens or aims, and what stands against going on.
     auto* focus = new ValueRow(CameraPage::tr("Focus"));
     auto* meter = new FocusMeter;
     column->addWidget(focus);
@@ -331,7 +334,6 @@ class CameraInspector {
     column->addWidget(best);
     column->addWidget(lineOf());
     column->addWidget(checksPart(model));
-    column->addWidget(consentWidget(model));  // they are what it is for
     column->addWidget(lineOf());
     QLabel* exposuresTitle = labelOf(CameraPage::tr("Exposures"), "section");
     column->addWidget(exposuresTitle);
@@ -365,7 +367,8 @@ class CameraInspector {
       }
       const bool isKnown = seen && (model.focus() > 0.0 || !model.isFocusJudged());
       focus->setValue(isKnown ? focusText(model) : QString::fromUtf8("–"));
-      meter->setValue(model.focus());
+      // What is too bright to be judged by looks sharp.
+      meter->setValue(model.isFocusJudged() ? model.focus() : 0.0);
       const std::vector<double> exposures = model.exposures();
       const bool isPaused = seen && !model.isKept() && !model.mayChooseExposure();
       exposuresTitle->setText(model.isKept() ? CameraPage::tr("Exposures, kept")

@@ -35,7 +35,11 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
             recallTrace();
             tellResult();
           },
-          [this](const Failure& failure) { Q_EMIT failed({failure, tr("What is measured is safe.")}); }),
+          [this](const Failure& failure) {
+            unreadable_ = wanted_;
+            tellAll();
+            Q_EMIT failed({failure, {}});
+          }),
       room_(this) {
   makeCommands();
   connect(&session_, &Session::opened, this, [this] {
@@ -57,6 +61,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     tellAll();
   });
   connect(&session_, &Session::roomLightChanged, this, &AcquirePage::resultChanged);
+  connect(&session_, &Session::acquisitionChanged, this, &AcquirePage::tellAll);
   connect(&session_, &Session::devicesChanged, this, [this] {
     // Whoever has asked to stop does not wait for a camera that has gone.
     if (isStopping()) session_.giveUpCamera();
@@ -134,7 +139,7 @@ StepStatus AcquirePage::status() const {
                     .arg(text(spentDuration(spent->seconds)))};
       return {StepState::done, tr("Measured")};
     case calibration::StageProgress::stale:
-      return {StepState::outOfDate, tr("Out of date")};
+      return {StepState::outOfDate, again_ > 0 ? tr("Again, not ended") : tr("Out of date")};
     case calibration::StageProgress::open:
       break;
   }
@@ -166,11 +171,14 @@ QString AcquirePage::hint() const {
     return tr("Put right what changed, then go on measuring.");
   if (afterChange() == measureAnew_ && session_.mayMeasure())
     return tr("Measure again as it stands now, or put it back and go on measuring.");
+  if ((isDoubtful() || isUseless()) && !session_.mayMeasure())
+    return tr("To measure again, confirm that the room is clear.");
   if (isDone() && wasEndedEarly() && !session_.mayMeasure())
     return tr("To go on measuring, confirm that the room is clear.");
-  if (isDoubtful() && !session_.mayMeasure()) return tr("To measure again, confirm that the room is clear.");
-  if (isDone())
-    return tr("Measured in %1").arg(text(spentDuration(cost().value_or(calibration::StageCost()).seconds)));
+  if (isDone()) {
+    const QString spent = text(spentDuration(cost().value_or(calibration::StageCost()).seconds));
+    return stoppedAt() > 0 ? tr("Stopped after %1").arg(spent) : tr("Measured in %1").arg(spent);
+  }
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   if (auto work = kept_ == 0 ? expected() : std::nullopt) {
     const int patterns = patternsExpected();
@@ -223,6 +231,7 @@ void AcquirePage::updateCommands() {
 PageCommand* AcquirePage::primary() const {
   if (isCountingDown()) return startNow_;
   if (isDoubtful()) return measureAnew_;
+  if (isUseless()) return hasBetterBefore() ? return_ : measureAnew_;
   if (PageCommand* leadsOn = afterChange()) return leadsOn;
   return isMeasuring() || isDone() ? next_ : start_;
 }
@@ -232,6 +241,7 @@ std::vector<PageCommand*> AcquirePage::secondary() const {
   if (isCountingDown()) return {stay_};
   // What was measured again may have come to less than what was there before.
   if (isDoubtful()) return hasBetterBefore() ? Commands{return_, next_} : Commands{next_};
+  if (isUseless()) return hasBetterBefore() ? Commands{measureAnew_, next_} : Commands{next_};
   if (const PageCommand* leadsOn = afterChange())
     return {leadsOn == measureAnew_ ? goOnMeasuring_ : measureAnew_, next_};
   if (isDone()) return hasBetterBefore() ? Commands{return_, measureAnew_} : Commands{measureAnew_};
@@ -248,6 +258,10 @@ std::optional<Banner> AcquirePage::banner() const {
   if (isMeasuring() || isCountingDown()) return std::nullopt;
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
   if (progress == calibration::StageProgress::stale) return staleBanner();
+  if (isDone() && isUnreadable())
+    return Banner{
+        Banner::Kind::amber, tr("What was measured cannot be read"),
+        hasBetterBefore() ? tr("Use the earlier measurement, or measure again.") : tr("Measure again.")};
   if (const auto change = session_.foundChange(); change && isDone()) return changedBanner(*change);
   if (progress == calibration::StageProgress::done && wasEndedEarly() && again_ > 0)
     return interruptedBanner();
@@ -289,11 +303,23 @@ bool AcquirePage::needsConsentNow() const {
 }
 
 bool AcquirePage::hasBetterBefore() const {
-  return (wasEndedEarly() || isDoubtful()) && session_.hasEarlier(calibration::Stage::acquisition);
+  return (wasEndedEarly() || isDoubtful() || isUnreadable()) &&
+         session_.hasEarlier(calibration::Stage::acquisition);
 }
 
 bool AcquirePage::isDoubtful() const {
   return isDone() && !wasEndedEarly() && session_.isDoubtful();
+}
+
+/// It cannot be read, or not even with what is missing would it be better than nothing.
+bool AcquirePage::isUseless() const {
+  const bool isPoor = stoppedAt() > 0 && !session_.foundChange() && session_.poorQuality();
+  return isDone() && (isUnreadable() || isPoor);
+}
+
+bool AcquirePage::isUnreadable() const {
+  const bool isKnown = !unreadable_.empty() && unreadable_ == session_.measurement();
+  return isKnown || session_.acquisitionFailure().has_value();
 }
 
 QString AcquirePage::whyLocked() const {
@@ -330,6 +356,15 @@ Banner AcquirePage::stoppedBanner() const {
     return {Banner::Kind::amber, title, tr("Finer light is missing. Go on any time, if nothing has moved."),
             goOnMeasuring_};
   const auto decibels = [](double value) { return decimalText(value, 0); };
+  if (isUseless())
+    return {Banner::Kind::amber, title,
+            tr("%1 dB expected: what was measured does not fit together, and pictures are no better than "
+               "uncorrected.")
+                .arg(decibels(quality->now))};
+  if (quality->photographs == 0)
+    return {Banner::Kind::amber, title,
+            tr("%1 dB expected. Go on any time, if nothing has moved.").arg(decibels(quality->now)),
+            goOnMeasuring_};
   return {
       Banner::Kind::amber, title,
       groupedText(tr("%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if "

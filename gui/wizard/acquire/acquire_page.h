@@ -147,6 +147,8 @@ class AcquirePage : public DevicePage {
   image::Image floodlight() const;
   /// It is being read.
   bool isFloodlightComing() const { return recalling_.isBusy() && floodlightNumber() == 0; }
+  /// It, or T, could not be.
+  bool isUnreadable() const;
   /// Another number, another picture; 0: none.
   int floodlightNumber() const;
 
@@ -191,6 +193,8 @@ class AcquirePage : public DevicePage {
   bool needsConsentNow() const;
   /// It is whole, and yet nothing would be corrected by it.
   bool isDoubtful() const;
+  bool isUseless() const;
+
   bool hasBetterBefore() const;
   Banner staleBanner() const;
   Banner interruptedBanner() const;
@@ -248,7 +252,8 @@ class AcquirePage : public DevicePage {
     std::optional<pipeline::AcquisitionRecord> record;
   };
   bool isLookedAt_ = false;
-  std::string wanted_;  // the measurement that is recalled, or is being read
+  std::string wanted_;      // the measurement that is recalled, or is being read
+  std::string unreadable_;  // the measurement that could not be
   Recalled recalled_;
   int recalls_ = 0;
   Latest<Recalled> recalling_;

@@ -170,18 +170,17 @@ QWidget* resultPart(AcquirePage& model) {
     part->setVisible(model.verificationError().has_value());
     patterns->setValue(count(cost.patterns));
     photographs->setValue(count(cost.exposures));
-    // Test patterns that were not confirmed tell nothing.
+    // Test patterns that were not confirmed tell nothing; nor do those of blocks as coarse as what was
+    // measured, beside how far pictures will be off.
+    const int stoppedAt = model.stoppedAt();
+    error->setVisible(stoppedAt == 0);
     const double off = model.verificationError().value_or(0.0);
     error->setValue(off > 0.0 ? percentText(off) : QString::fromUtf8("–"));
-    const QString differ = AcquirePage::tr(
-        "Test patterns are predicted from the measurement, then photographed: this is how far the two "
-        "differ, the photographs' noise included.");
-    meaning->setText(model.stoppedAt() == 0
-                         ? differ
-                         : differ + ' ' +
-                               AcquirePage::tr("Stopped early, they have no blocks finer than %1 px: this "
-                                               "says nothing of finer light.")
-                                   .arg(model.stoppedAt()));
+    meaning->setText(
+        stoppedAt > 0
+            ? AcquirePage::tr("Stopped early: light finer than blocks of %1 px is missing.").arg(stoppedAt)
+            : AcquirePage::tr("Test patterns are predicted from the measurement, then photographed: this is "
+                              "how far the two differ, the photographs' noise included."));
     const std::optional<transport::ExpectedQuality> expected = model.expectedQuality();
     quality->setVisible(expected.has_value());
     if (expected) quality->setValue(qualityText(expected->now));
@@ -222,7 +221,8 @@ QWidget* floodlightCard(AcquirePage& model) {
     view->setOverlay(flood.lit.picture);
     const QString white = model.projectors() > 1 ? AcquirePage::tr("all projectors fully white")
                                                  : AcquirePage::tr("the projector fully white");
-    const QString whole = AcquirePage::tr("%1; lit: %2 of the view").arg(white, percentText(flood.lit.share));
+    const QString whole = AcquirePage::tr("%1; lit, within the dashes: %2 of the view")
+                              .arg(white, percentText(flood.lit.share));
     card->setSubtitle(flood.lit.picture.isNull() ? white : whole);
     view->setAccessibleDescription(flood.lit.picture.isNull() ? QString() : whole);
   };
@@ -232,8 +232,9 @@ QWidget* floodlightCard(AcquirePage& model) {
                   shown = std::optional<std::pair<int, std::size_t>>()]() mutable {
     card->setVisible(!model.isMeasuring());
     view->setEmptyText(
-        model.isFloodlightComing()
-            ? AcquirePage::tr("Reading what was measured")
+        model.isFloodlightComing() ? AcquirePage::tr("Reading what was measured")
+        : model.isDone() && model.isUnreadable()
+            ? AcquirePage::tr("What was measured cannot be read.")
             : AcquirePage::tr("Appears when measuring begins. Nothing is projected before you start."));
     const auto wanted = std::pair(model.floodlightNumber(), model.camera());
     if (model.isMeasuring() || std::exchange(shown, wanted) == wanted) return;

@@ -96,7 +96,8 @@ QWidget* livePart(AcquirePage& model) {
       for (ImageView* view : {pattern, photograph}) view->setPicture({});
       return seen->setSubtitle({});
     }
-    const bool isDark = model.isPaused() || model.isDiskFull();
+    const bool isUnplugged = model.session().projectorWithoutScreen() == model.projector();
+    const bool isDark = model.isPaused() || model.isDiskFull() || isUnplugged;
     const QString none = model.isReading() ? AcquirePage::tr("Kept photographs are read first.")
                          : isDark          ? AcquirePage::tr("Nothing is being projected.")
                                            : QString();

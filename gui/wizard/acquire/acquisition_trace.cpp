@@ -76,7 +76,7 @@ QString patternsOf(const sentinels::Retake& retake) {
 QString AcquisitionTrace::headingOf(sentinels::AlarmKind kind) {
   switch (kind) {
     case sentinels::AlarmKind::flicker:
-      return tr("The light flickers");
+      return tr("The light flickers, or was switched");
     case sentinels::AlarmKind::unsteady:
       return tr("The light flickers, or something moves");
     case sentinels::AlarmKind::ambientChanged:

@@ -52,7 +52,7 @@ QWidget* outlookCard(AcquirePage& model) {
     const AcquisitionTrace::SharedOutlook& outlook = model.trace().outlook();
     if (std::exchange(shown, outlook) == outlook) return;
     picture->setPicture(outlook ? encodedPictureOf(outlook->picture) : QImage());
-    card->setSubtitle(outlook ? AcquirePage::tr("%1 px blocks").arg(outlook->blocks) : QString());
+    card->setSubtitle(outlook ? AcquirePage::tr("%1 px").arg(outlook->blocks) : QString());
     picture->setAccessibleDescription(
         outlook
             ? AcquirePage::tr("Blocks of %1 px. Expected now: %2. In the end: %3.")

@@ -175,9 +175,13 @@ StepStatus ThresholdPage::status() const {
   return {};
 }
 
+QString ThresholdPage::whyNothing() const {
+  const auto& failure = session_.acquisitionFailure();
+  return failure ? failure->what : tr("Reading the light transport");
+}
+
 QString ThresholdPage::hint() const {
-  if (session_.acquisitionFailure()) return session_.acquisitionFailure()->what;
-  if (!whole_ || !kept_) return tr("Reading the light transport");
+  if (session_.acquisitionFailure() || !whole_ || !kept_) return whyNothing();
   if (const QString why = whyLocked(); !why.isEmpty()) return why;
   if (kept_->energyKept < leastKept) return tr("Below 95 % of the light, bounces are lost.");
   if (isChanged()) return tr("Changed: it is applied as soon as you go on.");

@@ -25,6 +25,8 @@ class ThresholdPage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
+  /// Why nothing is to be seen of the measurement: it is still being read, or cannot be.
+  QString whyNothing() const;
   QString whyLocked() const override { return session_.whyLocked(step()); }
   PageCommand* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;

@@ -49,7 +49,6 @@ class DeviceViews : public Card {
     flood_ = new MapView;
     flood_->setObjectName("flood-view");
     flood_->setAccessibleName(ThresholdPage::tr("The surface in full light"));
-    flood_->setEmptyText(ThresholdPage::tr("Reading the light transport"));
     flood_->setScaleBar(true);
     flood_->setReadout(
         [](QPoint pixel) { return ThresholdPage::tr("Pixel %1, %2").arg(pixel.x()).arg(pixel.y()); });
@@ -90,6 +89,7 @@ class DeviceViews : public Card {
   }
 
   void refresh() {
+    flood_->setEmptyText(model_.whyNothing());
     bool otherCamera = std::exchange(camera_, model_.camera()) != model_.camera();
     bool otherProjector = std::exchange(projector_, model_.projector()) != model_.projector();
     shown_ = model_.acquisition();
@@ -155,7 +155,6 @@ class MatrixCard : public Card {
     view_->setObjectName("matrix-view");
     view_->setAccessibleName(
         ThresholdPage::tr("Light transport matrix, camera pixels down, projector pixels across"));
-    view_->setEmptyText(ThresholdPage::tr("Reading the light transport"));
     body()->addWidget(view_, 1);
     addViewActions(*this, *view_, {[view = view_] { return view->values(); }, "camera signal per second"},
                    [&model](const Failure& failure) {
@@ -171,6 +170,7 @@ class MatrixCard : public Card {
 
  private:
   void refresh() {
+    view_->setEmptyText(model_.whyNothing());
     if (model_.matrix() != shown_) {
       shown_ = model_.matrix();
       view_->setMatrix(shown_);

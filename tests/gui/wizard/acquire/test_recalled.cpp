@@ -95,6 +95,26 @@ class TestRecalled : public QObject {
     QVERIFY(page.floodlight().empty() && !page.isFloodlightComing() && page.trace().points().empty());
   }
 
+  /// Law: what cannot be read is said where it would be seen, and leads to what helps.
+  void whatCannotBeReadIsSaid() {
+    const std::filesystem::path flood = own_.session.result(Stage::acquisition)->folder / "flood-1.exr",
+                                aside = own_.path("flood.exr");
+    std::filesystem::rename(flood, aside);
+    const auto back = qScopeGuard([&] { std::filesystem::rename(aside, flood); });
+    Session again{std::filesystem::path()};
+    AcquirePage page(again);
+    const PageView view = viewOf(page);
+    const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
+    QSignalSpy failed(&page, &PageModel::failed);
+    again.open(own_.session.path());
+    QVERIFY(!page.isUnreadable() && !page.banner());
+    page.enter();
+    QTRY_COMPARE(failed.size(), 1);
+    QVERIFY(page.isUnreadable() && !page.isFloodlightComing());
+    QVERIFY(page.banner() && page.banner()->sentence.contains("cannot be read"));
+    QCOMPARE(page.primary()->text(), AcquirePage::tr("Measure again"));
+  }
+
   /// Of earlier versions nothing is on record but the picture.
   void calibrationsWithoutARecordShowTheirPicture() {
     QVERIFY(std::filesystem::remove(result()));

@@ -13,6 +13,8 @@
 namespace relucent::gui {
 namespace {
 
+constexpr double leastTilt = 0.005;  // degrees that are written as more than none
+
 /// From the middle of the view to where the camera has to be turned; as long as the way, but to be seen.
 /// Finer than the photograph where that has few pixels, so that an arrow stays an arrow.
 QImage arrowTo(QSize view, double x, double y) {
@@ -41,6 +43,12 @@ QImage arrowTo(QSize view, double x, double y) {
 QString wayText(double pixels, const QString& forwards, const QString& backwards) {
   if (std::abs(pixels) < NudgeSight::nearEnough) return NudgeDialog::tr("fits");
   return (pixels > 0.0 ? forwards : backwards).arg(decimalText(std::abs(pixels), 1));
+}
+
+QString tiltText(double degrees) {
+  const QString much = decimalText(std::abs(degrees), 2);
+  if (std::abs(degrees) < leastTilt) return NudgeDialog::tr("%1°").arg(much);
+  return (degrees > 0.0 ? NudgeDialog::tr("%1° clockwise") : NudgeDialog::tr("%1° anticlockwise")).arg(much);
 }
 
 QString adviceOn(const sentinels::Movement& moved) {
@@ -149,7 +157,7 @@ void NudgeDialog::showVerdict() {
   const QString nothing = QString::fromUtf8("–");
   across_->setValue(isKnown ? wayText(moved.x, tr("%1 px to the right"), tr("%1 px to the left")) : nothing);
   along_->setValue(isKnown ? wayText(moved.y, tr("%1 px down"), tr("%1 px up")) : nothing);
-  turned_->setValue(isKnown ? tr("%1°").arg(decimalText(moved.degrees, 2)) : nothing);
+  turned_->setValue(isKnown ? tiltText(moved.degrees) : nothing);
   if (nudge_.failure())
     verdict_->show(Remark::Kind::failed, nudge_.failure()->what, nudge_.failure()->advice);
   else if (const std::optional<Banner> waiting = nudge_.waiting())

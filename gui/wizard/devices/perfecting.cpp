@@ -67,7 +67,6 @@ Perfecting::Perfecting(Session& session, const StepName& step, QObject* parent)
 void Perfecting::lookAt(const QString& picture, const Canvas& canvas) {
   const bool isSame = picture == picture_ && canvas.size == canvas_.size && canvas.fit == canvas_.fit;
   if (isSame || isRunning()) return;
-  if (picture != picture_) outcome_.reset();
   picture_ = picture;
   canvas_ = canvas;
   look();
@@ -92,6 +91,7 @@ void Perfecting::start() {
   found_ = std::make_shared<Found>();
   photographs_ = 0;
   outcome_.reset();
+  tried_ = picture_;
   lease_ = session_.leaseDevices(step_, DeviceWork::light);
   auto counter = std::make_shared<Counter>(this, [this](int count) {
     photographs_ = count;

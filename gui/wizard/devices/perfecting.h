@@ -35,8 +35,13 @@ class Perfecting : public QObject {
 
   /// How the picture was corrected; none: it is shown as T has it.
   const std::optional<pipeline::PerfectedPicture>& known() const { return known_; }
-  /// What became of the picture when it was last tried here; none: it was not.
+  /// What became of the picture that was tried last; none: none was tried since the calibration was opened.
   const std::optional<pipeline::PerfectedImage>& outcome() const { return outcome_; }
+  /// Which one that was, a file or resource, and whether it is the one that the page shows.
+  const QString& tried() const { return tried_; }
+  bool isOfShown() const { return tried_ == picture_; }
+  /// Whether pictures follow each other slowly, since the room is not said to be clear.
+  bool isSlow() const { return !session_.mayMeasure(); }
 
   void start();
   /// What is best by now is kept.
@@ -62,7 +67,7 @@ class Perfecting : public QObject {
   StepName step_;
   DeviceLease lease_;
   Job job_;
-  QString picture_;
+  QString picture_, tried_;
   Canvas canvas_;
   std::optional<pipeline::PerfectedPicture> known_;
   std::optional<pipeline::PerfectedImage> outcome_;

@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "output/output_playlist.h"
 #include "text/message_text.h"
 #include "theme/action_button.h"
 #include "theme/controls.h"
@@ -28,29 +29,56 @@ QString dateText(const std::string& iso) {
   return QLocale().toString(when, QLocale::ShortFormat);
 }
 
-/// What the last try came to, where it changed nothing; empty: it did, or there was none.
+/// What a try came to that changed nothing.
+QString vainText(const pipeline::PerfectedImage& outcome) {
+  if (!outcome.failure.empty()) return fullSentence(outcome.failure);
+  if (outcome.end == pipeline::PerfectingEnd::disturbed)
+    return Perfecting::tr("%1 The picture is shown as before. Try again.")
+        .arg(fullSentence(outcome.disturbance));
+  return Perfecting::tr("The photographs found nothing better. The picture is shown as before.");
+}
+
+/// The same of the picture that is shown; empty: it was another one, it was perfected, or none was tried.
 QString vainText(const Perfecting& perfecting) {
   const auto& outcome = perfecting.outcome();
-  if (!outcome || outcome->kept) return {};
-  if (!outcome->failure.empty()) return fullSentence(outcome->failure);
-  if (outcome->end == pipeline::PerfectingEnd::disturbed)
-    return Perfecting::tr("%1 The picture is shown as before. Try again.")
-        .arg(fullSentence(outcome->disturbance));
-  return Perfecting::tr("The photographs found nothing better. The picture is shown as before.");
+  if (!outcome || outcome->kept || !perfecting.isOfShown()) return {};
+  return vainText(*outcome);
+}
+
+/// What became of the picture that was tried while another one plays by now; empty: it is that one.
+QString elsewhereText(const Perfecting& perfecting) {
+  const auto& outcome = perfecting.outcome();
+  if (!outcome || perfecting.isOfShown()) return {};
+  PlaylistItem tried;
+  tried.path = perfecting.tried();
+  const QString result = outcome->kept
+                             ? Perfecting::tr("perfected, %1 before, %2 now.")
+                                   .arg(figures(outcome->before.views), figures(outcome->after.views))
+                             : vainText(*outcome);
+  return Perfecting::tr("Tried last, %1: %2").arg(isolated(OutputPlaylist::nameOf(tried)), result);
 }
 
 void showState(Remark& remark, const Perfecting& perfecting) {
   const QString vain = vainText(perfecting);
-  if (perfecting.isRunning())
-    return remark.show(Remark::Kind::watch, Perfecting::tr("The picture is being perfected"),
-                       Perfecting::tr("%n photograph(s) by now. Keep the room as it is.", nullptr,
-                                      perfecting.photographs()));
+  if (perfecting.isRunning()) {
+    const QString taken =
+        Perfecting::tr("%n photograph(s) by now. Keep the room as it is.", nullptr, perfecting.photographs());
+    return remark.show(
+        Remark::Kind::watch, Perfecting::tr("The picture is being perfected"),
+        perfecting.isSlow()
+            ? taken + '\n' + Perfecting::tr("Slowly, as the room is not said to be clear: nothing flashes.")
+            : taken);
+  }
+  const QString elsewhere = elsewhereText(perfecting);
+  const auto withElsewhere = [&](const QString& meaning) {
+    return elsewhere.isEmpty() ? meaning : elsewhere + '\n' + meaning;
+  };
   if (const auto& known = perfecting.known()) {
     const QString better =
         Perfecting::tr("%1: %2 before, %3 now, by %n photograph(s).", nullptr, known->figures.photographs)
             .arg(dateText(known->perfected), figures(known->figures.before), figures(known->figures.after));
     return remark.show(Remark::Kind::good, Perfecting::tr("This picture is perfected"),
-                       vain.isEmpty() ? better : better + '\n' + vain);
+                       withElsewhere(vain.isEmpty() ? better : better + '\n' + vain));
   }
   if (!vain.isEmpty())
     return remark.show(perfecting.outcome()->end == pipeline::PerfectingEnd::disturbed ||
@@ -59,9 +87,9 @@ void showState(Remark& remark, const Perfecting& perfecting) {
                            : Remark::Kind::good,
                        Perfecting::tr("The picture is as it was"), vain);
   remark.show(Remark::Kind::watch, Perfecting::tr("Not perfected"),
-              Perfecting::tr(
+              withElsewhere(Perfecting::tr(
                   "A picture that stands can be corrected by photographs of itself, some eight of them. It "
-                  "is kept for this venue, placed as it is now."));
+                  "is kept for this venue, placed as it is now.")));
 }
 
 }  // namespace

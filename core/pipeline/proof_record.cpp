@@ -92,7 +92,8 @@ void saveProofRecord(const ProofRecord& record, const fs::path& folder) {
                          {"before", toJson(record.figures.before)},
                          {"after", toJson(record.figures.after)},
                          {"reachable", record.figures.reachable},
-                         {"moved", toJson(record.figures.moved)}};
+                         {"moved", toJson(record.figures.moved)},
+                         {"picture", record.picture}};
   for (const ProvedView& view : record.figures.others) json["other_views"].push_back(toJson(view));
   writeFileAtomically(folder / fileName, json.dump(2));
 }
@@ -111,6 +112,7 @@ std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
     record.figures.after = projectionFrom(json.at("after"));
     record.figures.reachable = json.at("reachable").get<double>();
     record.figures.moved = movementFrom(json);
+    record.picture = json.value("picture", std::string());
     if (json.contains("other_views"))
       for (const calibration::Json& view : json.at("other_views"))
         record.figures.others.push_back(viewFrom(view));

@@ -17,7 +17,8 @@ struct ProofRecord {
   std::string measurement;  // when the light transport was measured that it belongs to
   std::string shownFrom{};  // see fingerprintOfShown(); empty in records of earlier versions
   ContentSettings content;
-  ProveResult figures;  // method, before, after, reachable, moved
+  ProveResult figures;    // method, before, after, reachable, moved
+  std::string picture{};  // file or resource; empty: nobody kept it
 };
 
 /// A fingerprint of all that a picture is corrected with if the calibration is read now: the measurement that

@@ -141,7 +141,8 @@ void OutputProjection::play() {
 
 void OutputProjection::sample() {
   PlayerStatistics now = statistics();
-  frameTimes_.push_back(now.frames > 0 ? 1000.0 * now.frameSeconds : 0.0);
+  // Of a picture that stands, the time of one is no frame's.
+  frameTimes_.push_back(now.framesPerSecond > 0.0 ? 1000.0 * now.frameSeconds : 0.0);
   if (frameTimes_.size() > frameTimesKept) frameTimes_.pop_front();
   Q_EMIT progressed();
 }

@@ -124,9 +124,15 @@ void showProof(Remark& remark, const OutputPage& page) {
   QString meaning =
       (drift == nullptr ? OutputPage::tr("Photographed %1.").arg(when)
                         : OutputPage::tr("Photographed %1, before the last check for drift.").arg(when)) +
-      '\n' + errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
-      errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
-      OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));
+      '\n';
+  if (!proof->picture.isEmpty()) {
+    PlaylistItem shown;
+    shown.path = proof->picture;
+    meaning += OutputPage::tr("Picture: %1").arg(isolated(OutputPlaylist::nameOf(shown))) + '\n';
+  }
+  meaning += errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
+             errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
+             OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));
   if (const QString views = viewsLine(*proof); !views.isEmpty()) meaning = views + '\n' + meaning;
   const std::optional<std::size_t> differs = pipeline::viewThatDiffers(proof->figures);
   if (proof->isAsPredicted() && isDoubted)
@@ -153,8 +159,14 @@ void showProof(Remark& remark, const OutputPage& page) {
 }
 
 /// `hasMoved`: the photograph shows that the camera was bumped, which can be undone by hand, too.
-void showDrift(Remark& remark, const pipeline::DriftRecord* drift, bool hasMoved) {
-  remark.setVisible(drift != nullptr);
+void showDrift(Remark& remark, const OutputProof& proof, bool hasMoved) {
+  const pipeline::DriftRecord* drift = proof.newestDrift();
+  const bool isEnded = proof.endedUnclear() == OutputProof::Work::drift;
+  remark.setVisible(isEnded || drift != nullptr);
+  if (isEnded)
+    return remark.show(Remark::Kind::watch,
+                       OutputPage::tr("The check was ended: the room is not said to be clear"),
+                       OutputPage::tr("It came to no result. Check again when the room is clear."));
   if (drift == nullptr) return;
   const QDateTime checked =
       QDateTime::fromString(QString::fromStdString(drift->checked), Qt::ISODate).toLocalTime();
@@ -172,9 +184,9 @@ void showDrift(Remark& remark, const pipeline::DriftRecord* drift, bool hasMoved
       return remark.show(Remark::Kind::warning,
                          OutputPage::tr("Something has changed. Repair the calibration."), meaning);
     case acquisition::Verdict::startAgain:
-      return remark.show(Remark::Kind::failed,
-                         OutputPage::tr("Hardly anything fits. Aim, focus and measure everything again."),
-                         meaning);
+      return remark.show(
+          Remark::Kind::failed,
+          OutputPage::tr("Hardly anything fits. Put the camera back, or aim and measure again."), meaning);
   }
 }
 
@@ -216,7 +228,7 @@ QWidget* proofPart(OutputPage& page) {
     const std::shared_ptr<const Proof>& proof = page.proof().proof();
     const bool hasMoved = proof && !page.proof().isOutOfDate() && !page.proof().wasPushedBack() &&
                           proof->figures.moved.explains && !proof->isAsPredicted();
-    showDrift(*changed, page.proof().newestDrift(), hasMoved);
+    showDrift(*changed, page.proof(), hasMoved);
     take->setWhyNot(page.whyNotProve());
     drift->setWhyNot(page.whyNoPatterns());
     push->setWhyNot(page.whyNoPhotograph());

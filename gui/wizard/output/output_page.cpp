@@ -121,9 +121,9 @@ void OutputPage::enter() {
 
 StepStatus OutputPage::status() const {
   if (isScreenLost()) return {StepState::busy, tr("Screen unplugged"), false, true};
-  if (playsEarlier()) return {StepState::busy, tr("Another correction"), false, true};
   if (const QString work = photographicWork(); !work.isEmpty()) return {StepState::busy, work};
   if (isCovered()) return {StepState::busy, tr("Covered by %1").arg(session_.devicesUserName())};
+  if (playsEarlier()) return {StepState::busy, tr("Another correction"), false, true};
   const OutputProof::Next next = proof_.next();
   const bool isDoubted = next != OutputProof::Next::install && next != OutputProof::Next::photograph;
   if (isOpen() && isDoubted) return {StepState::busy, tr("Not as predicted"), false, true};
@@ -155,6 +155,8 @@ QString OutputPage::photographicWork() const {
 }
 
 QString OutputPage::whatIsProjected() const {
+  if (perfecting_.isRunning() || proof_.work() == OutputProof::Work::photograph)
+    return tr("The output is closed. A picture to be photographed is projected.");
   if (!photographicWork().isEmpty())
     return tr("The output is closed. Patterns to be photographed are projected.");
   if (session_.isProjecting())

@@ -57,7 +57,7 @@ OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent
     recall();
     repair_.reset();
     found_ = nullptr;
-    pushedBack_ = false;
+    pushedBack_ = endedUnclear_ = false;
     Q_EMIT changed();
   });
   connect(&session_, &Session::stepsChanged, this, &OutputProof::look);
@@ -142,8 +142,11 @@ void OutputProof::cameraPushedBack() {
 void OutputProof::start(Work work, Job::Work job) {
   work_ = work;
   lease_ = session_.leaseDevices(step_, work == Work::report ? DeviceWork::brief : DeviceWork::light, [this] {
-    if (flashes(work_)) cancel();
+    if (!flashes(work_)) return;
+    endedUnclear_ = true;
+    cancel();
   });
+  endedUnclear_ = false;
   job_.start(std::move(job));
   Q_EMIT changed();
 }
@@ -168,6 +171,7 @@ void OutputProof::photograph(const QString& picture, const Canvas& canvas) {
     proof->content = content;
     proof->measured = measured;
     proof->shownFrom = shownFrom;
+    proof->picture = picture;
     saveProof(*proof, settings.out);
     found->proof = proof;
   });
@@ -251,6 +255,7 @@ void OutputProof::finished() {
   std::shared_ptr<Found> found = std::exchange(found_, nullptr);
   lease_.release();
   bool done = job_.state() == Job::State::done && found;
+  if (done) endedUnclear_ = false;  // it was ready by then
   if (done && found->proof) proof_ = found->proof;
   if (done && found->drift) drift_ = std::move(found->drift);
   std::optional<Failure> unread;

@@ -35,6 +35,7 @@ struct Proof {
   pipeline::ContentSettings content;
   std::string measured;
   std::string shownFrom;  // see Session::shownFrom(); empty: nobody kept it
+  QString picture;        // as the playlist has it; empty: nobody kept it
 
   bool isAsPredicted() const { return pipeline::isAsPredicted(figures); }
 };
@@ -93,6 +94,8 @@ class OutputProof : public QObject {
   void report(const QString& picture);
   void cancel() { job_.cancel(); }
   bool isStopping() const { return job_.isStopping(); }
+  /// That flashed was ended, since the room was no longer said to be clear; until something is begun again.
+  Work endedUnclear() const { return endedUnclear_ && !job_.isRunning() ? work_ : Work::none; }
 
  Q_SIGNALS:
   /// What is proved, or whether it is being proved.
@@ -124,6 +127,7 @@ class OutputProof : public QObject {
   std::string repairOf_;  // the measurement that `repair_` left
   bool wasOutOfDate_ = false;
   bool pushedBack_ = false;  // since the last photograph
+  bool endedUnclear_ = false;
   struct Found;
   std::shared_ptr<Found> found_;  // by the job
 };

@@ -31,6 +31,7 @@ namespace {
 constexpr double worstDeltaE = 12.0;  // of the map
 constexpr int foldedHeight = 260;     // of cards below each other: a picture that can be judged
 constexpr double chartSeconds = 60.0, sampleSeconds = 0.5;
+constexpr double legendRoom = 1.4;  // of the highest curve: the limit's words stand above all
 
 /// The cards say so too.
 QString whyNoShow(const OutputPage& page) {
@@ -77,7 +78,7 @@ class PlaybackCard : public Card {
     bool open = page_.isOpen() && s.frames > 0, moves = s.framesPerSecond > 0.0;
     QString none = QString::fromUtf8("–");
     rate_->setValue(open && moves ? decimalText(s.framesPerSecond, 1) : none);
-    time_->setValue(open && s.frameSeconds > 0.0
+    time_->setValue(open && moves && s.frameSeconds > 0.0
                         ? OutputPage::tr("%1 ms").arg(decimalText(1000.0 * s.frameSeconds, 1))
                         : none);
     // A picture that stands is not late for anything.
@@ -97,7 +98,7 @@ class PlaybackCard : public Card {
     }
     const charts::Curve most = limit(highest);
     chart_->setAxes(axisOf(-chartSeconds, 0.0, OutputPage::tr("Seconds")),
-                    axisOf(0.0, 1.1 * highest, OutputPage::tr("Frame time, ms")));
+                    axisOf(0.0, legendRoom * highest, OutputPage::tr("Frame time, ms")));
     chart_->setCurves({curve, most});
   }
   /// What a picture may take at most, so that the display shows every one.

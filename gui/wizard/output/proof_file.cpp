@@ -32,7 +32,7 @@ std::vector<ProofView> proofViews(const fs::path& folder, std::size_t cameras) {
 
 void saveProof(const Proof& proof, const fs::path& folder) {
   pipeline::saveProofRecord({proof.taken.toUTC().toString(Qt::ISODate).toStdString(), proof.measured,
-                             proof.shownFrom, proof.content, proof.figures},
+                             proof.shownFrom, proof.content, proof.figures, proof.picture.toStdString()},
                             folder);
 }
 
@@ -44,6 +44,7 @@ std::shared_ptr<const Proof> loadProof(const fs::path& folder) {
     proof->taken = QDateTime::fromString(QString::fromStdString(record->taken), Qt::ISODate).toLocalTime();
     proof->measured = record->measurement;
     proof->shownFrom = record->shownFrom;
+    proof->picture = QString::fromStdString(record->picture);
     proof->content = record->content;
     proof->figures = record->figures;
     proof->views = proofViews(folder, proof->figures.others.size() + 1);

@@ -22,12 +22,19 @@ QString sentences(const std::vector<Message>& what) {
   return lines.join('\n');
 }
 
-QString errorText(double deltaE) {
-  return isolated(QString::fromUtf8("ΔE %1").arg(decimalText(deltaE, 1)));
+/// With as many decimals as tell one from the other.
+QString errorText(double deltaE, double other) {
+  const int decimals = decimalText(deltaE, 1) == decimalText(other, 1) ? 2 : 1;
+  return isolated(QString::fromUtf8("ΔE %1").arg(decimalText(deltaE, decimals)));
 }
 
 /// What the last try came to, where it changed nothing. Returns whether there was one.
 bool showVain(Remark& remark, const OutputProof& proof) {
+  if (proof.endedUnclear() == OutputProof::Work::repair) {
+    remark.show(Remark::Kind::watch, OutputPage::tr("The repair was ended: the room is not said to be clear"),
+                OutputPage::tr("The measurement is used as before. Repair again when the room is clear."));
+    return true;
+  }
   const auto& repair = proof.repair();
   if (!repair || repair->end == pipeline::RepairEnd::repaired) return false;
   if (repair->end == pipeline::RepairEnd::nothingToDo)
@@ -51,7 +58,8 @@ void showState(Remark& remark, const OutputProof& proof) {
               OutputPage::tr("Repaired, %1").arg(QLocale().toString(when, QLocale::ShortFormat)),
               sentences(note->what) + '\n' +
                   OutputPage::tr("Colour error of a photographed picture: %1 before, %2 now.")
-                      .arg(errorText(note->deltaEBefore), errorText(note->deltaEAfter)));
+                      .arg(errorText(note->deltaEBefore, note->deltaEAfter),
+                           errorText(note->deltaEAfter, note->deltaEBefore)));
 }
 
 }  // namespace

@@ -381,8 +381,9 @@ class TestWhileMeasuring : public QObject {
     CameraPage camera(*session_);
     camera.enter();
     QVERIFY(!camera.isLooking() && camera.hasRemedy());
-    QCOMPARE(camera.hint(), session_->whyNoPatterns());
-    QVERIFY(!camera.hint().isEmpty() && !camera.secondary().front()->isEnabled());
+    // As they begin with the consent, that is said first, and said once.
+    QCOMPARE(camera.hint(), QString("Confirm that the room is clear: the checks begin with that."));
+    QCOMPARE(camera.secondary().front()->whyNot(), camera.hint());
     session_->setRoomClear(true);
     QVERIFY(camera.isLooking() && !camera.hasRemedy());
     camera.leave();
@@ -401,8 +402,8 @@ class TestWhileMeasuring : public QObject {
     QVERIFY(camera.isChecking());
     session_->setRoomClear(false);
     QTRY_VERIFY_WITH_TIMEOUT(!camera.isLooking() && session_->areDevicesFree(), 2'000);
-    QVERIFY(camera.hasRemedy());
-    QCOMPARE(camera.hint(), session_->whyNoPatterns());
+    QVERIFY(camera.hasRemedy() && !camera.hint().isEmpty());
+    QCOMPARE(camera.secondary().front()->whyNot(), camera.hint());
     session_->setRoomClear(true);
     QVERIFY(camera.isChecking());
     camera.leave();
@@ -429,6 +430,13 @@ class TestWhileMeasuring : public QObject {
     QCOMPARE(proof.work(), work);
     session_->setRoomClear(false);
     QCOMPARE(proof.isStopping(), ends);
+    proof.cancel();
+    QTRY_VERIFY_WITH_TIMEOUT(session_->areDevicesFree(), 2'000);
+    // What ended without a result is said until something is begun again.
+    QCOMPARE(proof.endedUnclear(), ends ? work : OutputProof::Work::none);
+    session_->setRoomClear(true);
+    proof.photograph(defaultPicture(), {});
+    QCOMPARE(proof.endedUnclear(), OutputProof::Work::none);
     proof.cancel();
     QTRY_VERIFY_WITH_TIMEOUT(session_->areDevicesFree(), 2'000);
   }

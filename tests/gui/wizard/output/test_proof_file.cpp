@@ -28,6 +28,7 @@ class TestProofFile : public QObject {
     proof.taken = QDateTime(QDate(2026, 3, 29), QTime(1, 30, 5));
     proof.measured = "2026-03-28T22:00:00Z";
     proof.shownFrom = "0123456789abcdef";
+    proof.picture = "/pictures/\u00fcber all.png";
     proof.content.picture = "picture.png";
     proof.content.corners = Corners{{{1.0, 2.0}, {40.0, 2.5}, {41.0, 30.0}, {0.5, 31.0}}};
     return proof;
@@ -63,6 +64,7 @@ class TestProofFile : public QObject {
     QCOMPARE(loaded->taken, saved.taken);
     QCOMPARE(loaded->measured, saved.measured);
     QCOMPARE(loaded->shownFrom, saved.shownFrom);
+    QCOMPARE(loaded->picture, saved.picture);
     QVERIFY(loaded->content == saved.content);
     QCOMPARE(loaded->view(0).photograph.size(), QSize(4, 3));
     QCOMPARE(loaded->view(0).deltaE.at(1, 1, 0), 2.5f);

@@ -256,6 +256,10 @@ class TestWhatPlays : public QObject {
     QVERIFY(perfecting.outcome() && perfecting.outcome()->kept);
     QVERIFY(perfecting.photographs() > 1);
     const std::vector<pipeline::PictureError> told = perfecting.outcome()->after.views;
+    // What came of it is still known when another picture plays by then.
+    QVERIFY(perfecting.isOfShown());
+    perfecting.lookAt("another.png", {});
+    QVERIFY(!perfecting.isOfShown() && perfecting.outcome() && !perfecting.tried().isEmpty());
     QTRY_VERIFY_WITH_TIMEOUT(perfecting.known().has_value(), patience);
     QTRY_VERIFY_WITH_TIMEOUT(plays(true), patience);
     // What is proved is what plays, and measured as what perfecting told of it.

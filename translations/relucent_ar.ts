@@ -620,8 +620,8 @@
 <context>
     <name>alarm.light-flickers</name>
     <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>الضوء يرتعش: تختلف لقطات النمط الواحد بمقدار ⁨{} %⁩</translation>
+        <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
+        <translation>الضوء يرتعش أو شُغّل أو أُطفئ: صور النمط نفسه تختلف بمقدار ⁨{} %⁩</translation>
     </message>
 </context>
 <context>
@@ -1045,18 +1045,10 @@
     </message>
 </context>
 <context>
-    <name>check.picture-out</name>
-    <message numerus="yes">
-        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
-        <translation>
-            <numerusform>تظهر الصورة فور إرسالها: يُنتظر ⁨{1} ms⁩.</numerusform>
-            <numerusform>تظهر الصورة بعد إطار واحد من إرسالها: يُنتظر ⁨{1} ms⁩.</numerusform>
-            <numerusform>تظهر الصورة بعد إطارين من إرسالها: يُنتظر ⁨{1} ms⁩.</numerusform>
-            <numerusform>تظهر الصورة بعد {} إطارات من إرسالها: يُنتظر ⁨{} ms⁩.</numerusform>
-            <numerusform>تظهر الصورة بعد {} إطارًا من إرسالها: يُنتظر ⁨{} ms⁩.</numerusform>
-            <numerusform>تظهر الصورة بعد {} إطار من إرسالها: يُنتظر ⁨{} ms⁩.</numerusform>
-        </translation>
+    <name>check.picture-takes</name>
+    <message>
+        <source>A picture takes {} ms to appear: each one is waited for that long.</source>
+        <translation>تستغرق الصورة ⁨{}⁩ ms حتى تظهر: يُنتظر كل منها هذه المدة.</translation>
     </message>
 </context>
 <context>
@@ -3576,10 +3568,6 @@
         <translation>تظهر بعد الأنماط الأولى وتزداد حدّة.</translation>
     </message>
     <message>
-        <source>%1 px blocks</source>
-        <translation>كتل من ⁨%1 px⁩</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>المتوقع الآن</translation>
     </message>
@@ -3684,10 +3672,6 @@
         <translation>⁨%1⁩ من نحو ⁨%2⁩</translation>
     </message>
     <message>
-        <source>%1; lit: %2 of the view</source>
-        <translation>⁨%1⁩؛ المُضاء: ⁨%2⁩ من المشهد</translation>
-    </message>
-    <message>
         <source>About %1 left</source>
         <translation>بقي نحو ⁨%1⁩</translation>
     </message>
@@ -3702,10 +3686,6 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
         <translation>تُتوقَّع أنماط الاختبار من القياس ثم تُصوَّر: هذا هو الفرق بينهما، بما فيه ضجيج اللقطات.</translation>
-    </message>
-    <message>
-        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
-        <translation>لأن القياس أُوقف مبكرًا فليس فيها كتل أدق من ⁨%1 px⁩: لا يدلّ هذا على ما هو أدق من الضوء.</translation>
     </message>
     <message>
         <source>%1; light right within about %2</source>
@@ -4025,6 +4005,46 @@
         <source>Use the earlier measurement?</source>
         <translation>استخدام القياس السابق؟</translation>
     </message>
+    <message>
+        <source>%1; lit, within the dashes: %2 of the view</source>
+        <translation>⁨%1⁩؛ المُضاء، داخل الخط المتقطع: ⁨%2⁩ من المشهد</translation>
+    </message>
+    <message>
+        <source>Stopped after %1</source>
+        <translation>أُوقف بعد: %1</translation>
+    </message>
+    <message>
+        <source>Stopped early: light finer than blocks of %1 px is missing.</source>
+        <translation>أُوقف مبكرًا: ينقص الضوء الأدق من كتل بحجم ⁨%1 px⁩.</translation>
+    </message>
+    <message>
+        <source>Again, not ended</source>
+        <translation>إعادة لم تكتمل</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read</source>
+        <translation>تعذّرت قراءة ما قيس</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement, or measure again.</source>
+        <translation>استخدم القياس السابق، أو أعد القياس.</translation>
+    </message>
+    <message>
+        <source>Measure again.</source>
+        <translation>أعد القياس.</translation>
+    </message>
+    <message>
+        <source>%1 dB expected: what was measured does not fit together, and pictures are no better than uncorrected.</source>
+        <translation>المتوقع %1 dB: ما قيس غير متسق، والصور ليست أفضل من غير المصححة.</translation>
+    </message>
+    <message>
+        <source>%1 dB expected. Go on any time, if nothing has moved.</source>
+        <translation>المتوقع %1 dB. تابع في أي وقت إن لم يتحرك شيء.</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read.</source>
+        <translation>تعذّرت قراءة ما قيس.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4133,10 +4153,6 @@
         <translation>لا ارتعاش</translation>
     </message>
     <message>
-        <source>The light flickers</source>
-        <translation>الضوء يرتعش</translation>
-    </message>
-    <message>
         <source>Photographs of one pattern agree within %1.</source>
         <translation>تتطابق صور النمط الواحد في حدود ⁨%1⁩.</translation>
     </message>
@@ -4183,6 +4199,10 @@
     <message>
         <source>Not known while the view has changed.</source>
         <translation>لا يُعرف ما دام المشهد مختلفًا.</translation>
+    </message>
+    <message>
+        <source>The light flickers, or was switched</source>
+        <translation>الضوء يرتعش أو شُغّل أو أُطفئ</translation>
     </message>
 </context>
 <context>
@@ -4596,6 +4616,14 @@
     <message>
         <source>Stop the checks</source>
         <translation>إيقاف الفحوص</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the checks begin with that.</source>
+        <translation>أكّد أن القاعة خالية: عندها تبدأ الفحوص.</translation>
+    </message>
+    <message>
+        <source>as it was seen last, exposure %1</source>
+        <translation>كما شوهد آخر مرة، التعريض %1</translation>
     </message>
 </context>
 <context>
@@ -5468,6 +5496,22 @@
         <source>Less light from this screen falls into the room (F9)</source>
         <translation>يقل ما يقع في القاعة من ضوء هذه الشاشة (F9)</translation>
     </message>
+    <message>
+        <source>Undone: %1</source>
+        <translation>تم التراجع: %1</translation>
+    </message>
+    <message>
+        <source>Nothing to undo here</source>
+        <translation>لا شيء للتراجع عنه هنا</translation>
+    </message>
+    <message>
+        <source>Done again: %1</source>
+        <translation>أُعيد: %1</translation>
+    </message>
+    <message>
+        <source>Nothing to do again</source>
+        <translation>لا شيء لإعادته</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MaskEditing</name>
@@ -5881,6 +5925,14 @@ projector %2</source>
         <source>In a rehearsal it comes back by itself while you look.</source>
         <translation>في التدريب تعود من تلقاء نفسها بينما تنظر.</translation>
     </message>
+    <message>
+        <source>%1° clockwise</source>
+        <translation>⁨%1°⁩ باتجاه عقارب الساعة</translation>
+    </message>
+    <message>
+        <source>%1° anticlockwise</source>
+        <translation>⁨%1°⁩ عكس عقارب الساعة</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -5931,10 +5983,6 @@ projector %2</source>
     <message>
         <source>The measurement still holds</source>
         <translation>القياس ما زال صالحًا</translation>
-    </message>
-    <message>
-        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
-        <translation>لا يكاد شيء يتطابق. وجّه الأجهزة واضبط التركيز وأعد قياس كل شيء.</translation>
     </message>
     <message>
         <source>Verification</source>
@@ -6815,6 +6863,34 @@ projector %2</source>
         <source>No program here opens it: open it by hand, or take it to another computer.</source>
         <translation>لا يوجد هنا برنامج يفتحه: افتحه يدويًا، أو انقله إلى حاسوب آخر.</translation>
     </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>الصورة: %1</translation>
+    </message>
+    <message>
+        <source>The check was ended: the room is not said to be clear</source>
+        <translation>أُنهي الفحص: لم يعد مؤكدًا أن القاعة خالية</translation>
+    </message>
+    <message>
+        <source>It came to no result. Check again when the room is clear.</source>
+        <translation>لم يُفضِ إلى نتيجة. أعد الفحص عندما تكون القاعة خالية.</translation>
+    </message>
+    <message>
+        <source>The repair was ended: the room is not said to be clear</source>
+        <translation>أُنهي الإصلاح: لم يعد مؤكدًا أن القاعة خالية</translation>
+    </message>
+    <message>
+        <source>The measurement is used as before. Repair again when the room is clear.</source>
+        <translation>يُستخدم القياس كما كان. أعد الإصلاح عندما تكون القاعة خالية.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>لا يكاد شيء يتطابق. أعد الكاميرا إلى مكانها، أو وجّه وقِس من جديد.</translation>
+    </message>
+    <message>
+        <source>The output is closed. A picture to be photographed is projected.</source>
+        <translation>الخرج مغلق. تُعرض صورة لتصويرها.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6948,6 +7024,18 @@ projector %2</source>
     <message>
         <source>The picture is being perfected.</source>
         <translation>يجري تحسين الصورة.</translation>
+    </message>
+    <message>
+        <source>perfected, %1 before, %2 now.</source>
+        <translation>محسَّنة، ‏%1 قبلًا، %2 الآن.</translation>
+    </message>
+    <message>
+        <source>Tried last, %1: %2</source>
+        <translation>آخر محاولة، %1: ‏%2</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>ببطء، إذ لم يؤكَّد أن القاعة خالية: لا شيء يومض.</translation>
     </message>
 </context>
 <context>

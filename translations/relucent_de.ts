@@ -600,8 +600,8 @@
 <context>
     <name>alarm.light-flickers</name>
     <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>das Licht flackert: Fotos desselben Musters unterscheiden sich um {} %</translation>
+        <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
+        <translation>das Licht flackert oder wurde geschaltet: Fotos eines Musters unterscheiden sich um {} %</translation>
     </message>
 </context>
 <context>
@@ -1025,14 +1025,10 @@
     </message>
 </context>
 <context>
-    <name>check.picture-out</name>
-    <message numerus="yes">
-        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
-        <translation>
-            <numerusform>Ein Bild erscheint ein Einzelbild nach dem Senden: {1} ms werden abgewartet.</numerusform>
-            <numerusform>Ein Bild erscheint {} Einzelbilder nach dem Senden: {} ms werden abgewartet.</numerusform>
-        </translation>
+    <name>check.picture-takes</name>
+    <message>
+        <source>A picture takes {} ms to appear: each one is waited for that long.</source>
+        <translation>Ein Bild braucht {} ms, bis es erscheint: So lange wird auf jedes gewartet.</translation>
     </message>
 </context>
 <context>
@@ -3524,10 +3520,6 @@
         <translation>Erscheint nach den ersten Mustern und wird schärfer.</translation>
     </message>
     <message>
-        <source>%1 px blocks</source>
-        <translation>%1-px-Blöcke</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>Jetzt zu erwarten</translation>
     </message>
@@ -3632,10 +3624,6 @@
         <translation>%1 von etwa %2</translation>
     </message>
     <message>
-        <source>%1; lit: %2 of the view</source>
-        <translation>%1; beleuchtet: %2 der Ansicht</translation>
-    </message>
-    <message>
         <source>About %1 left</source>
         <translation>Noch etwa %1</translation>
     </message>
@@ -3650,10 +3638,6 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
         <translation>Testmuster werden aus der Messung vorhergesagt und dann fotografiert: So weit liegen beide auseinander, das Rauschen der Fotos eingeschlossen.</translation>
-    </message>
-    <message>
-        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
-        <translation>Vorzeitig beendet, haben sie keine feineren Blöcke als %1 px: Über feineres Licht sagt das nichts.</translation>
     </message>
     <message>
         <source>%1; light right within about %2</source>
@@ -3933,6 +3917,46 @@
         <source>Use the earlier measurement?</source>
         <translation>Frühere Messung verwenden?</translation>
     </message>
+    <message>
+        <source>%1; lit, within the dashes: %2 of the view</source>
+        <translation>%1; beleuchtet, in der gestrichelten Linie: %2 der Ansicht</translation>
+    </message>
+    <message>
+        <source>Stopped after %1</source>
+        <translation>Gestoppt nach %1</translation>
+    </message>
+    <message>
+        <source>Stopped early: light finer than blocks of %1 px is missing.</source>
+        <translation>Vorzeitig gestoppt: Licht, das feiner ist als Blöcke von %1 px, fehlt.</translation>
+    </message>
+    <message>
+        <source>Again, not ended</source>
+        <translation>Erneut, nicht beendet</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read</source>
+        <translation>Das Gemessene lässt sich nicht lesen</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement, or measure again.</source>
+        <translation>Verwenden Sie die frühere Messung, oder messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>Measure again.</source>
+        <translation>Messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>%1 dB expected: what was measured does not fit together, and pictures are no better than uncorrected.</source>
+        <translation>%1 dB zu erwarten: Das Gemessene passt nicht zusammen, und Bilder sind nicht besser als unkorrigiert.</translation>
+    </message>
+    <message>
+        <source>%1 dB expected. Go on any time, if nothing has moved.</source>
+        <translation>%1 dB zu erwarten. Messen Sie jederzeit weiter, wenn sich nichts bewegt hat.</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read.</source>
+        <translation>Das Gemessene lässt sich nicht lesen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4041,10 +4065,6 @@
         <translation>Kein Flackern</translation>
     </message>
     <message>
-        <source>The light flickers</source>
-        <translation>Das Licht flackert</translation>
-    </message>
-    <message>
         <source>Photographs of one pattern agree within %1.</source>
         <translation>Fotos eines Musters stimmen auf %1 überein.</translation>
     </message>
@@ -4091,6 +4111,10 @@
     <message>
         <source>Not known while the view has changed.</source>
         <translation>Nicht zu beurteilen, solange sich der Blick geändert hat.</translation>
+    </message>
+    <message>
+        <source>The light flickers, or was switched</source>
+        <translation>Das Licht flackert oder wurde geschaltet</translation>
     </message>
 </context>
 <context>
@@ -4500,6 +4524,14 @@
     <message>
         <source>Stop the checks</source>
         <translation>Prüfungen beenden</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the checks begin with that.</source>
+        <translation>Bestätigen Sie, dass der Raum geräumt ist: Damit beginnen die Prüfungen.</translation>
+    </message>
+    <message>
+        <source>as it was seen last, exposure %1</source>
+        <translation>wie zuletzt gesehen, Belichtung %1</translation>
     </message>
 </context>
 <context>
@@ -5336,6 +5368,22 @@
         <source>Less light from this screen falls into the room (F9)</source>
         <translation>Vom Licht dieses Bildschirms fällt weniger in den Raum (F9)</translation>
     </message>
+    <message>
+        <source>Undone: %1</source>
+        <translation>Rückgängig: %1</translation>
+    </message>
+    <message>
+        <source>Nothing to undo here</source>
+        <translation>Hier gibt es nichts rückgängig zu machen</translation>
+    </message>
+    <message>
+        <source>Done again: %1</source>
+        <translation>Wiederhergestellt: %1</translation>
+    </message>
+    <message>
+        <source>Nothing to do again</source>
+        <translation>Nichts wiederherzustellen</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MaskEditing</name>
@@ -5737,6 +5785,14 @@ Projektor %2</translation>
         <source>In a rehearsal it comes back by itself while you look.</source>
         <translation>In einer Probe kommt sie von selbst zurück, während Sie zusehen.</translation>
     </message>
+    <message>
+        <source>%1° clockwise</source>
+        <translation>%1° im Uhrzeigersinn</translation>
+    </message>
+    <message>
+        <source>%1° anticlockwise</source>
+        <translation>%1° gegen den Uhrzeigersinn</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -5787,10 +5843,6 @@ Projektor %2</translation>
     <message>
         <source>The measurement still holds</source>
         <translation>Die Messung gilt noch</translation>
-    </message>
-    <message>
-        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
-        <translation>Kaum etwas passt noch. Richten Sie aus, stellen Sie scharf und messen Sie alles neu.</translation>
     </message>
     <message>
         <source>Verification</source>
@@ -5942,7 +5994,7 @@ Projektor %2</translation>
     </message>
     <message>
         <source>frames a second</source>
-        <translation>Bilder je Sekunde</translation>
+        <translation>Bilder/s</translation>
     </message>
     <message>
         <source>frame time</source>
@@ -6667,6 +6719,34 @@ Projektor %2</translation>
         <source>No program here opens it: open it by hand, or take it to another computer.</source>
         <translation>Kein Programm hier öffnet ihn: Öffnen Sie ihn von Hand, oder nehmen Sie ihn auf einen anderen Computer mit.</translation>
     </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>Bild: %1</translation>
+    </message>
+    <message>
+        <source>The check was ended: the room is not said to be clear</source>
+        <translation>Die Prüfung wurde beendet: Der Raum ist nicht mehr als geräumt bestätigt</translation>
+    </message>
+    <message>
+        <source>It came to no result. Check again when the room is clear.</source>
+        <translation>Sie kam zu keinem Ergebnis. Prüfen Sie erneut, wenn der Raum geräumt ist.</translation>
+    </message>
+    <message>
+        <source>The repair was ended: the room is not said to be clear</source>
+        <translation>Die Reparatur wurde beendet: Der Raum ist nicht mehr als geräumt bestätigt</translation>
+    </message>
+    <message>
+        <source>The measurement is used as before. Repair again when the room is clear.</source>
+        <translation>Die Messung wird wie zuvor verwendet. Reparieren Sie erneut, wenn der Raum geräumt ist.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>Kaum etwas passt noch. Stellen Sie die Kamera zurück, oder richten Sie aus und messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>The output is closed. A picture to be photographed is projected.</source>
+        <translation>Die Ausgabe ist geschlossen. Ein Bild zum Fotografieren wird projiziert.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6792,6 +6872,18 @@ Projektor %2</translation>
     <message>
         <source>The picture is being perfected.</source>
         <translation>Das Bild wird perfektioniert.</translation>
+    </message>
+    <message>
+        <source>perfected, %1 before, %2 now.</source>
+        <translation>perfektioniert, vorher %1, jetzt %2.</translation>
+    </message>
+    <message>
+        <source>Tried last, %1: %2</source>
+        <translation>Zuletzt versucht, %1: %2</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>Langsam, da der Raum nicht als geräumt bestätigt ist: Nichts blitzt.</translation>
     </message>
 </context>
 <context>

@@ -51,17 +51,6 @@
     </message>
 </context>
 <context>
-    <name>check.picture-out</name>
-    <message numerus="yes">
-        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
-        <translation>
-            <numerusform>A picture appears {} frame after it is sent: {} ms are waited for.</numerusform>
-            <numerusform>A picture appears {} frames after it is sent: {} ms are waited for.</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
     <name>check.pictures-late</name>
     <message numerus="yes">
         <source>Pictures arrive {} photographs late: measure the latency, so that it is waited for.</source>

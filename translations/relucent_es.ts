@@ -600,8 +600,8 @@
 <context>
     <name>alarm.light-flickers</name>
     <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>la luz parpadea: las fotografías de un mismo patrón difieren en un {} %</translation>
+        <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
+        <translation>la luz parpadea o se ha encendido o apagado: las fotografías de un mismo patrón difieren un {} %</translation>
     </message>
 </context>
 <context>
@@ -1025,14 +1025,10 @@
     </message>
 </context>
 <context>
-    <name>check.picture-out</name>
-    <message numerus="yes">
-        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
-        <translation>
-            <numerusform>Una imagen aparece {} fotograma después de enviarse: se esperan {} ms.</numerusform>
-            <numerusform>Una imagen aparece {} fotogramas después de enviarse: se esperan {} ms.</numerusform>
-        </translation>
+    <name>check.picture-takes</name>
+    <message>
+        <source>A picture takes {} ms to appear: each one is waited for that long.</source>
+        <translation>Una imagen tarda {} ms en aparecer: se espera ese tiempo a cada una.</translation>
     </message>
 </context>
 <context>
@@ -3524,10 +3520,6 @@
         <translation>Aparece tras los primeros patrones y se vuelve más nítida.</translation>
     </message>
     <message>
-        <source>%1 px blocks</source>
-        <translation>a %1 px</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>Esperado ahora</translation>
     </message>
@@ -3632,10 +3624,6 @@
         <translation>%1 de unos %2</translation>
     </message>
     <message>
-        <source>%1; lit: %2 of the view</source>
-        <translation>%1; iluminado: %2 de la vista</translation>
-    </message>
-    <message>
         <source>About %1 left</source>
         <translation>Quedan aprox. %1</translation>
     </message>
@@ -3650,10 +3638,6 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
         <translation>Los patrones de prueba se predicen a partir de la medición y luego se fotografían: esta es la diferencia, incluido el ruido de las fotografías.</translation>
-    </message>
-    <message>
-        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
-        <translation>Detenida antes de tiempo, no tienen bloques más finos que %1 px: no dice nada de la luz más fina.</translation>
     </message>
     <message>
         <source>%1; light right within about %2</source>
@@ -3933,6 +3917,46 @@
         <source>Use the earlier measurement?</source>
         <translation>¿Usar la medición anterior?</translation>
     </message>
+    <message>
+        <source>%1; lit, within the dashes: %2 of the view</source>
+        <translation>%1; iluminado, dentro de los trazos: %2 de la vista</translation>
+    </message>
+    <message>
+        <source>Stopped after %1</source>
+        <translation>Detenido tras %1</translation>
+    </message>
+    <message>
+        <source>Stopped early: light finer than blocks of %1 px is missing.</source>
+        <translation>Detenido antes de tiempo: falta la luz más fina que bloques de %1 px.</translation>
+    </message>
+    <message>
+        <source>Again, not ended</source>
+        <translation>De nuevo, sin terminar</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read</source>
+        <translation>Lo medido no se puede leer</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement, or measure again.</source>
+        <translation>Use la medición anterior o mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>Measure again.</source>
+        <translation>Mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>%1 dB expected: what was measured does not fit together, and pictures are no better than uncorrected.</source>
+        <translation>Se esperan %1 dB: lo medido no concuerda y las imágenes no son mejores que sin corregir.</translation>
+    </message>
+    <message>
+        <source>%1 dB expected. Go on any time, if nothing has moved.</source>
+        <translation>Se esperan %1 dB. Continúe cuando quiera si nada se ha movido.</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read.</source>
+        <translation>Lo medido no se puede leer.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4041,10 +4065,6 @@
         <translation>Sin parpadeo</translation>
     </message>
     <message>
-        <source>The light flickers</source>
-        <translation>La luz parpadea</translation>
-    </message>
-    <message>
         <source>Photographs of one pattern agree within %1.</source>
         <translation>Las fotografías de un mismo patrón coinciden dentro del %1.</translation>
     </message>
@@ -4091,6 +4111,10 @@
     <message>
         <source>Not known while the view has changed.</source>
         <translation>No se sabe mientras la vista sea otra.</translation>
+    </message>
+    <message>
+        <source>The light flickers, or was switched</source>
+        <translation>La luz parpadea o se ha encendido o apagado</translation>
     </message>
 </context>
 <context>
@@ -4500,6 +4524,14 @@
     <message>
         <source>Stop the checks</source>
         <translation>Detener las comprobaciones</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the checks begin with that.</source>
+        <translation>Confirme que la sala está despejada: con ello empiezan las comprobaciones.</translation>
+    </message>
+    <message>
+        <source>as it was seen last, exposure %1</source>
+        <translation>como se vio por última vez, exposición %1</translation>
     </message>
 </context>
 <context>
@@ -5336,6 +5368,22 @@
         <source>Less light from this screen falls into the room (F9)</source>
         <translation>Cae menos luz de esta pantalla en la sala (F9)</translation>
     </message>
+    <message>
+        <source>Undone: %1</source>
+        <translation>Deshecho: %1</translation>
+    </message>
+    <message>
+        <source>Nothing to undo here</source>
+        <translation>Aquí no hay nada que deshacer</translation>
+    </message>
+    <message>
+        <source>Done again: %1</source>
+        <translation>Rehecho: %1</translation>
+    </message>
+    <message>
+        <source>Nothing to do again</source>
+        <translation>Nada que rehacer</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MaskEditing</name>
@@ -5737,6 +5785,14 @@ proyector %2</translation>
         <source>In a rehearsal it comes back by itself while you look.</source>
         <translation>En un ensayo vuelve sola mientras usted mira.</translation>
     </message>
+    <message>
+        <source>%1° clockwise</source>
+        <translation>%1° en el sentido de las agujas del reloj</translation>
+    </message>
+    <message>
+        <source>%1° anticlockwise</source>
+        <translation>%1° en sentido contrario a las agujas del reloj</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -5787,10 +5843,6 @@ proyector %2</translation>
     <message>
         <source>The measurement still holds</source>
         <translation>La medición sigue siendo válida</translation>
-    </message>
-    <message>
-        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
-        <translation>Casi nada coincide. Apunte, enfoque y mida todo de nuevo.</translation>
     </message>
     <message>
         <source>Verification</source>
@@ -6667,6 +6719,34 @@ proyector %2</translation>
         <source>No program here opens it: open it by hand, or take it to another computer.</source>
         <translation>Ningún programa de aquí lo abre: ábralo a mano o llévelo a otro ordenador.</translation>
     </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>Imagen: %1</translation>
+    </message>
+    <message>
+        <source>The check was ended: the room is not said to be clear</source>
+        <translation>La comprobación terminó: la sala ya no consta como despejada</translation>
+    </message>
+    <message>
+        <source>It came to no result. Check again when the room is clear.</source>
+        <translation>No dio ningún resultado. Compruebe de nuevo cuando la sala esté despejada.</translation>
+    </message>
+    <message>
+        <source>The repair was ended: the room is not said to be clear</source>
+        <translation>La reparación terminó: la sala ya no consta como despejada</translation>
+    </message>
+    <message>
+        <source>The measurement is used as before. Repair again when the room is clear.</source>
+        <translation>La medición se usa como antes. Repare de nuevo cuando la sala esté despejada.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>Casi nada coincide. Recoloque la cámara, o apunte y mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>The output is closed. A picture to be photographed is projected.</source>
+        <translation>La salida está cerrada. Se proyecta una imagen para fotografiarla.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6792,6 +6872,18 @@ proyector %2</translation>
     <message>
         <source>The picture is being perfected.</source>
         <translation>La imagen se está perfeccionando.</translation>
+    </message>
+    <message>
+        <source>perfected, %1 before, %2 now.</source>
+        <translation>perfeccionada, antes %1, ahora %2.</translation>
+    </message>
+    <message>
+        <source>Tried last, %1: %2</source>
+        <translation>Último intento, %1: %2</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>Despacio, pues la sala no consta como despejada: nada destella.</translation>
     </message>
 </context>
 <context>

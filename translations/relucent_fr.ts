@@ -600,8 +600,8 @@
 <context>
     <name>alarm.light-flickers</name>
     <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>la lumière scintille&#x202f;: les photos d’un même motif diffèrent de {}&#x202f;%</translation>
+        <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
+        <translation>la lumière scintille ou a été allumée ou éteinte&#xa0;: les photos d’un même motif diffèrent de {}&#x202f;%</translation>
     </message>
 </context>
 <context>
@@ -1025,14 +1025,10 @@
     </message>
 </context>
 <context>
-    <name>check.picture-out</name>
-    <message numerus="yes">
-        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
-        <translation>
-            <numerusform>Une image apparaît {} trame après l’envoi : attente de {} ms.</numerusform>
-            <numerusform>Une image apparaît {} trames après l’envoi : attente de {} ms.</numerusform>
-        </translation>
+    <name>check.picture-takes</name>
+    <message>
+        <source>A picture takes {} ms to appear: each one is waited for that long.</source>
+        <translation>Une image met {} ms à apparaître&#xa0;: chacune est attendue aussi longtemps.</translation>
     </message>
 </context>
 <context>
@@ -3524,10 +3520,6 @@
         <translation>Apparaît après les premiers motifs et devient plus nette.</translation>
     </message>
     <message>
-        <source>%1 px blocks</source>
-        <translation>à %1 px</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>Attendu maintenant</translation>
     </message>
@@ -3632,10 +3624,6 @@
         <translation>%1 sur environ %2</translation>
     </message>
     <message>
-        <source>%1; lit: %2 of the view</source>
-        <translation>%1&#xa0;; éclairé&#xa0;: %2 du champ</translation>
-    </message>
-    <message>
         <source>About %1 left</source>
         <translation>Encore %1 environ</translation>
     </message>
@@ -3650,10 +3638,6 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
         <translation>Les motifs d’essai sont prédits à partir de la mesure, puis photographiés : voici leur écart, bruit des photos compris.</translation>
-    </message>
-    <message>
-        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
-        <translation>Arrêtée avant la fin, la mesure n’a pas de blocs plus fins que %1 px : cela ne dit rien de la lumière plus fine.</translation>
     </message>
     <message>
         <source>%1; light right within about %2</source>
@@ -3933,6 +3917,46 @@
         <source>Use the earlier measurement?</source>
         <translation>Utiliser la mesure précédente ?</translation>
     </message>
+    <message>
+        <source>%1; lit, within the dashes: %2 of the view</source>
+        <translation>%1&#xa0;; éclairé, dans les tirets&#xa0;: %2 du champ</translation>
+    </message>
+    <message>
+        <source>Stopped after %1</source>
+        <translation>Arrêté après %1</translation>
+    </message>
+    <message>
+        <source>Stopped early: light finer than blocks of %1 px is missing.</source>
+        <translation>Arrêté avant la fin&#xa0;: la lumière plus fine que des blocs de %1 px manque.</translation>
+    </message>
+    <message>
+        <source>Again, not ended</source>
+        <translation>À nouveau, non terminé</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read</source>
+        <translation>Les mesures ne peuvent pas être lues</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement, or measure again.</source>
+        <translation>Utilisez la mesure précédente, ou mesurez à nouveau.</translation>
+    </message>
+    <message>
+        <source>Measure again.</source>
+        <translation>Mesurez à nouveau.</translation>
+    </message>
+    <message>
+        <source>%1 dB expected: what was measured does not fit together, and pictures are no better than uncorrected.</source>
+        <translation>%1 dB attendus : les mesures ne concordent pas et les images ne sont pas meilleures que sans correction.</translation>
+    </message>
+    <message>
+        <source>%1 dB expected. Go on any time, if nothing has moved.</source>
+        <translation>%1 dB attendus. Continuez à tout moment si rien n’a bougé.</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read.</source>
+        <translation>Les mesures ne peuvent pas être lues.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4041,10 +4065,6 @@
         <translation>Aucun scintillement</translation>
     </message>
     <message>
-        <source>The light flickers</source>
-        <translation>La lumière vacille</translation>
-    </message>
-    <message>
         <source>Photographs of one pattern agree within %1.</source>
         <translation>Les photos d’un même motif concordent à %1 près.</translation>
     </message>
@@ -4091,6 +4111,10 @@
     <message>
         <source>Not known while the view has changed.</source>
         <translation>Inconnu tant que la vue est une autre.</translation>
+    </message>
+    <message>
+        <source>The light flickers, or was switched</source>
+        <translation>La lumière scintille ou a été allumée ou éteinte</translation>
     </message>
 </context>
 <context>
@@ -4500,6 +4524,14 @@
     <message>
         <source>Stop the checks</source>
         <translation>Arrêter les contrôles</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the checks begin with that.</source>
+        <translation>Confirmez que la salle est évacuée&#xa0;: les contrôles commencent alors.</translation>
+    </message>
+    <message>
+        <source>as it was seen last, exposure %1</source>
+        <translation>vu en dernier lieu, pose %1</translation>
     </message>
 </context>
 <context>
@@ -5336,6 +5368,22 @@
         <source>Less light from this screen falls into the room (F9)</source>
         <translation>Moins de lumière de cet écran tombe dans la salle (F9)</translation>
     </message>
+    <message>
+        <source>Undone: %1</source>
+        <translation>Annulé&#xa0;: %1</translation>
+    </message>
+    <message>
+        <source>Nothing to undo here</source>
+        <translation>Rien à annuler ici</translation>
+    </message>
+    <message>
+        <source>Done again: %1</source>
+        <translation>Rétabli&#xa0;: %1</translation>
+    </message>
+    <message>
+        <source>Nothing to do again</source>
+        <translation>Rien à rétablir</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MaskEditing</name>
@@ -5737,6 +5785,14 @@ projecteur %2</translation>
         <source>In a rehearsal it comes back by itself while you look.</source>
         <translation>En répétition, elle revient d’elle-même pendant que vous regardez.</translation>
     </message>
+    <message>
+        <source>%1° clockwise</source>
+        <translation>%1° dans le sens des aiguilles d’une montre</translation>
+    </message>
+    <message>
+        <source>%1° anticlockwise</source>
+        <translation>%1° dans le sens inverse des aiguilles d’une montre</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -5787,10 +5843,6 @@ projecteur %2</translation>
     <message>
         <source>The measurement still holds</source>
         <translation>La mesure reste valable</translation>
-    </message>
-    <message>
-        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
-        <translation>Presque rien ne correspond. Cadrez, faites la mise au point et remesurez tout.</translation>
     </message>
     <message>
         <source>Verification</source>
@@ -6667,6 +6719,34 @@ projecteur %2</translation>
         <source>No program here opens it: open it by hand, or take it to another computer.</source>
         <translation>Aucun programme d’ici ne l’ouvre : ouvrez-le à la main, ou emportez-le sur un autre ordinateur.</translation>
     </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>Image&#xa0;: %1</translation>
+    </message>
+    <message>
+        <source>The check was ended: the room is not said to be clear</source>
+        <translation>Le contrôle a été arrêté&#xa0;: la salle n’est plus confirmée évacuée</translation>
+    </message>
+    <message>
+        <source>It came to no result. Check again when the room is clear.</source>
+        <translation>Il n’a donné aucun résultat. Recommencez quand la salle sera évacuée.</translation>
+    </message>
+    <message>
+        <source>The repair was ended: the room is not said to be clear</source>
+        <translation>La réparation a été arrêtée&#xa0;: la salle n’est plus confirmée évacuée</translation>
+    </message>
+    <message>
+        <source>The measurement is used as before. Repair again when the room is clear.</source>
+        <translation>La mesure est utilisée comme avant. Recommencez la réparation quand la salle sera évacuée.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>Presque rien ne correspond. Replacez la caméra, ou cadrez et remesurez.</translation>
+    </message>
+    <message>
+        <source>The output is closed. A picture to be photographed is projected.</source>
+        <translation>La sortie est fermée. Une image à photographier est projetée.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6792,6 +6872,18 @@ projecteur %2</translation>
     <message>
         <source>The picture is being perfected.</source>
         <translation>L’image est en perfectionnement.</translation>
+    </message>
+    <message>
+        <source>perfected, %1 before, %2 now.</source>
+        <translation>perfectionnée, %1 avant, %2 maintenant.</translation>
+    </message>
+    <message>
+        <source>Tried last, %1: %2</source>
+        <translation>Dernier essai, %1&#xa0;: %2</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>Lentement, car la salle n’est pas confirmée évacuée&#xa0;: rien ne clignote.</translation>
     </message>
 </context>
 <context>

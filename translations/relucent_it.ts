@@ -600,8 +600,8 @@
 <context>
     <name>alarm.light-flickers</name>
     <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>la luce sfarfalla: le foto di uno stesso pattern differiscono del {} %</translation>
+        <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
+        <translation>la luce sfarfalla o è stata accesa o spenta: le fotografie dello stesso motivo differiscono del {} %</translation>
     </message>
 </context>
 <context>
@@ -1025,14 +1025,10 @@
     </message>
 </context>
 <context>
-    <name>check.picture-out</name>
-    <message numerus="yes">
-        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
-        <translation>
-            <numerusform>Un’immagine appare {} fotogramma dopo l’invio: si attendono {} ms.</numerusform>
-            <numerusform>Un’immagine appare {} fotogrammi dopo l’invio: si attendono {} ms.</numerusform>
-        </translation>
+    <name>check.picture-takes</name>
+    <message>
+        <source>A picture takes {} ms to appear: each one is waited for that long.</source>
+        <translation>Un’immagine impiega {} ms ad apparire: ognuna viene attesa per questo tempo.</translation>
     </message>
 </context>
 <context>
@@ -3524,10 +3520,6 @@
         <translation>Appare dopo i primi pattern e diventa più nitida.</translation>
     </message>
     <message>
-        <source>%1 px blocks</source>
-        <translation>a %1 px</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>Atteso ora</translation>
     </message>
@@ -3632,10 +3624,6 @@
         <translation>%1 di circa %2</translation>
     </message>
     <message>
-        <source>%1; lit: %2 of the view</source>
-        <translation>%1; illuminato: %2 dell’inquadratura</translation>
-    </message>
-    <message>
         <source>About %1 left</source>
         <translation>Ancora circa %1</translation>
     </message>
@@ -3650,10 +3638,6 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
         <translation>I motivi di prova vengono previsti dalla misura e poi fotografati: questa è la differenza, rumore delle foto compreso.</translation>
-    </message>
-    <message>
-        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
-        <translation>Interrotta in anticipo, non hanno blocchi più fini di %1 px: non dice nulla della luce più fine.</translation>
     </message>
     <message>
         <source>%1; light right within about %2</source>
@@ -3933,6 +3917,46 @@
         <source>Use the earlier measurement?</source>
         <translation>Usare la misura precedente?</translation>
     </message>
+    <message>
+        <source>%1; lit, within the dashes: %2 of the view</source>
+        <translation>%1; illuminato, entro il tratteggio: %2 dell’inquadratura</translation>
+    </message>
+    <message>
+        <source>Stopped after %1</source>
+        <translation>Fermato dopo %1</translation>
+    </message>
+    <message>
+        <source>Stopped early: light finer than blocks of %1 px is missing.</source>
+        <translation>Fermato in anticipo: manca la luce più fine di blocchi di %1 px.</translation>
+    </message>
+    <message>
+        <source>Again, not ended</source>
+        <translation>Di nuovo, non finita</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read</source>
+        <translation>Quanto misurato non si può leggere</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement, or measure again.</source>
+        <translation>Usare la misura precedente o misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Measure again.</source>
+        <translation>Misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>%1 dB expected: what was measured does not fit together, and pictures are no better than uncorrected.</source>
+        <translation>Attesi %1 dB: quanto misurato non concorda e le immagini non sono migliori che senza correzione.</translation>
+    </message>
+    <message>
+        <source>%1 dB expected. Go on any time, if nothing has moved.</source>
+        <translation>Attesi %1 dB. Continuare quando si vuole, se nulla si è mosso.</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read.</source>
+        <translation>Quanto misurato non si può leggere.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4041,10 +4065,6 @@
         <translation>Nessuno sfarfallio</translation>
     </message>
     <message>
-        <source>The light flickers</source>
-        <translation>La luce sfarfalla</translation>
-    </message>
-    <message>
         <source>Photographs of one pattern agree within %1.</source>
         <translation>Le foto di uno stesso pattern concordano entro %1.</translation>
     </message>
@@ -4091,6 +4111,10 @@
     <message>
         <source>Not known while the view has changed.</source>
         <translation>Non si sa finché la vista è un’altra.</translation>
+    </message>
+    <message>
+        <source>The light flickers, or was switched</source>
+        <translation>La luce sfarfalla o è stata accesa o spenta</translation>
     </message>
 </context>
 <context>
@@ -4500,6 +4524,14 @@
     <message>
         <source>Stop the checks</source>
         <translation>Interrompi i controlli</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the checks begin with that.</source>
+        <translation>Confermare che la sala è sgombra: con questo iniziano i controlli.</translation>
+    </message>
+    <message>
+        <source>as it was seen last, exposure %1</source>
+        <translation>come visto l’ultima volta, esposizione %1</translation>
     </message>
 </context>
 <context>
@@ -5336,6 +5368,22 @@
         <source>Less light from this screen falls into the room (F9)</source>
         <translation>Meno luce di questo schermo cade nella sala (F9)</translation>
     </message>
+    <message>
+        <source>Undone: %1</source>
+        <translation>Annullato: %1</translation>
+    </message>
+    <message>
+        <source>Nothing to undo here</source>
+        <translation>Qui non c’è nulla da annullare</translation>
+    </message>
+    <message>
+        <source>Done again: %1</source>
+        <translation>Ripristinato: %1</translation>
+    </message>
+    <message>
+        <source>Nothing to do again</source>
+        <translation>Nulla da ripristinare</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MaskEditing</name>
@@ -5737,6 +5785,14 @@ proiettore %2</translation>
         <source>In a rehearsal it comes back by itself while you look.</source>
         <translation>In una prova torna da sola mentre si guarda.</translation>
     </message>
+    <message>
+        <source>%1° clockwise</source>
+        <translation>%1° in senso orario</translation>
+    </message>
+    <message>
+        <source>%1° anticlockwise</source>
+        <translation>%1° in senso antiorario</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -5787,10 +5843,6 @@ proiettore %2</translation>
     <message>
         <source>The measurement still holds</source>
         <translation>La misura è ancora valida</translation>
-    </message>
-    <message>
-        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
-        <translation>Quasi nulla corrisponde. Puntare, mettere a fuoco e misurare tutto di nuovo.</translation>
     </message>
     <message>
         <source>Verification</source>
@@ -6667,6 +6719,34 @@ proiettore %2</translation>
         <source>No program here opens it: open it by hand, or take it to another computer.</source>
         <translation>Nessun programma qui lo apre: aprirlo a mano, o portarlo su un altro computer.</translation>
     </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>Immagine: %1</translation>
+    </message>
+    <message>
+        <source>The check was ended: the room is not said to be clear</source>
+        <translation>Il controllo è stato interrotto: la sala non è più confermata sgombra</translation>
+    </message>
+    <message>
+        <source>It came to no result. Check again when the room is clear.</source>
+        <translation>Non ha dato alcun risultato. Controllare di nuovo quando la sala è sgombra.</translation>
+    </message>
+    <message>
+        <source>The repair was ended: the room is not said to be clear</source>
+        <translation>La riparazione è stata interrotta: la sala non è più confermata sgombra</translation>
+    </message>
+    <message>
+        <source>The measurement is used as before. Repair again when the room is clear.</source>
+        <translation>La misura resta in uso come prima. Riparare di nuovo quando la sala è sgombra.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>Quasi nulla corrisponde. Rimettere a posto la fotocamera, oppure puntare e misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>The output is closed. A picture to be photographed is projected.</source>
+        <translation>L’uscita è chiusa. Si proietta un’immagine da fotografare.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6792,6 +6872,18 @@ proiettore %2</translation>
     <message>
         <source>The picture is being perfected.</source>
         <translation>L’immagine è in perfezionamento.</translation>
+    </message>
+    <message>
+        <source>perfected, %1 before, %2 now.</source>
+        <translation>perfezionata, prima %1, ora %2.</translation>
+    </message>
+    <message>
+        <source>Tried last, %1: %2</source>
+        <translation>Ultimo tentativo, %1: %2</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>Lentamente, perché la sala non è confermata sgombra: nulla lampeggia.</translation>
     </message>
 </context>
 <context>

@@ -595,8 +595,8 @@
 <context>
     <name>alarm.light-flickers</name>
     <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>光がちらついています：同じパターンの写真に {} % の差があります</translation>
+        <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
+        <translation>光がちらついているか、点灯・消灯されました：同じパターンの写真が {} % 異なります</translation>
     </message>
 </context>
 <context>
@@ -1020,13 +1020,10 @@
     </message>
 </context>
 <context>
-    <name>check.picture-out</name>
-    <message numerus="yes">
-        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
-        <translation>
-            <numerusform>画像は送信から {} フレーム後に表示されます：{} ms 待ちます。</numerusform>
-        </translation>
+    <name>check.picture-takes</name>
+    <message>
+        <source>A picture takes {} ms to appear: each one is waited for that long.</source>
+        <translation>映像が現れるまで {} ms かかります。毎回その時間だけ待ちます。</translation>
     </message>
 </context>
 <context>
@@ -3511,10 +3508,6 @@
         <translation>最初のパターンの後に現れ、次第に鮮明になります。</translation>
     </message>
     <message>
-        <source>%1 px blocks</source>
-        <translation>%1 px のブロック</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>現在の見込み</translation>
     </message>
@@ -3619,10 +3612,6 @@
         <translation>約 %2 中 %1</translation>
     </message>
     <message>
-        <source>%1; lit: %2 of the view</source>
-        <translation>%1、照射範囲は視野の %2</translation>
-    </message>
-    <message>
         <source>About %1 left</source>
         <translation>残り約 %1</translation>
     </message>
@@ -3637,10 +3626,6 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
         <translation>テストパターンを測定結果から予測し、撮影して比べます。これはその差で、写真のノイズを含みます。</translation>
-    </message>
-    <message>
-        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
-        <translation>途中で止めたため、%1 px より細かいブロックはありません。それより細かい光については何も分かりません。</translation>
     </message>
     <message>
         <source>%1; light right within about %2</source>
@@ -3910,6 +3895,46 @@
         <source>Use the earlier measurement?</source>
         <translation>前の測定を使いますか？</translation>
     </message>
+    <message>
+        <source>%1; lit, within the dashes: %2 of the view</source>
+        <translation>%1、照射範囲（破線の内側）は視野の %2</translation>
+    </message>
+    <message>
+        <source>Stopped after %1</source>
+        <translation>%1で停止</translation>
+    </message>
+    <message>
+        <source>Stopped early: light finer than blocks of %1 px is missing.</source>
+        <translation>途中で停止しました：%1 px のブロックより細かい光は含まれません。</translation>
+    </message>
+    <message>
+        <source>Again, not ended</source>
+        <translation>再測定は未完了</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read</source>
+        <translation>測定内容を読み込めません</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement, or measure again.</source>
+        <translation>以前の測定を使うか、再測定してください。</translation>
+    </message>
+    <message>
+        <source>Measure again.</source>
+        <translation>再測定してください。</translation>
+    </message>
+    <message>
+        <source>%1 dB expected: what was measured does not fit together, and pictures are no better than uncorrected.</source>
+        <translation>予測 %1 dB：測定内容が互いに合わず、補正しない場合より良くなりません。</translation>
+    </message>
+    <message>
+        <source>%1 dB expected. Go on any time, if nothing has moved.</source>
+        <translation>予測 %1 dB。何も動いていなければいつでも続けられます。</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read.</source>
+        <translation>測定内容を読み込めません。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4018,10 +4043,6 @@
         <translation>ちらつきなし</translation>
     </message>
     <message>
-        <source>The light flickers</source>
-        <translation>光がちらついています</translation>
-    </message>
-    <message>
         <source>Photographs of one pattern agree within %1.</source>
         <translation>同じパターンの写真の差は %1 以内です。</translation>
     </message>
@@ -4068,6 +4089,10 @@
     <message>
         <source>Not known while the view has changed.</source>
         <translation>視野が違う間は分かりません。</translation>
+    </message>
+    <message>
+        <source>The light flickers, or was switched</source>
+        <translation>光がちらついているか、点灯・消灯されました</translation>
     </message>
 </context>
 <context>
@@ -4476,6 +4501,14 @@
     <message>
         <source>Stop the checks</source>
         <translation>チェックを中止</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the checks begin with that.</source>
+        <translation>退避が完了したことを確認してください。確認するとチェックが始まります。</translation>
+    </message>
+    <message>
+        <source>as it was seen last, exposure %1</source>
+        <translation>最後に見た状態、露出 %1</translation>
     </message>
 </context>
 <context>
@@ -5303,6 +5336,22 @@
         <source>Less light from this screen falls into the room (F9)</source>
         <translation>この画面から室内に入る光を減らします（F9）</translation>
     </message>
+    <message>
+        <source>Undone: %1</source>
+        <translation>元に戻しました：%1</translation>
+    </message>
+    <message>
+        <source>Nothing to undo here</source>
+        <translation>ここで元に戻せるものはありません</translation>
+    </message>
+    <message>
+        <source>Done again: %1</source>
+        <translation>やり直しました：%1</translation>
+    </message>
+    <message>
+        <source>Nothing to do again</source>
+        <translation>やり直せるものはありません</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MaskEditing</name>
@@ -5701,6 +5750,14 @@ projector %2</source>
         <source>In a rehearsal it comes back by itself while you look.</source>
         <translation>リハーサルでは、見ている間に自然に元へ戻ります。</translation>
     </message>
+    <message>
+        <source>%1° clockwise</source>
+        <translation>時計回りに %1°</translation>
+    </message>
+    <message>
+        <source>%1° anticlockwise</source>
+        <translation>反時計回りに %1°</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -5751,10 +5808,6 @@ projector %2</source>
     <message>
         <source>The measurement still holds</source>
         <translation>測定結果は今も有効です</translation>
-    </message>
-    <message>
-        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
-        <translation>ほとんど一致しません。向きとピントを合わせ、すべて再測定してください。</translation>
     </message>
     <message>
         <source>Verification</source>
@@ -6630,6 +6683,34 @@ projector %2</source>
         <source>No program here opens it: open it by hand, or take it to another computer.</source>
         <translation>ここには開けるプログラムがありません。手動で開くか、別のコンピューターに移してください。</translation>
     </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>画像：%1</translation>
+    </message>
+    <message>
+        <source>The check was ended: the room is not said to be clear</source>
+        <translation>チェックを終了しました。退避の確認が取り消されています</translation>
+    </message>
+    <message>
+        <source>It came to no result. Check again when the room is clear.</source>
+        <translation>結果は得られていません。退避が完了したらもう一度チェックしてください。</translation>
+    </message>
+    <message>
+        <source>The repair was ended: the room is not said to be clear</source>
+        <translation>修復を終了しました。退避の確認が取り消されています</translation>
+    </message>
+    <message>
+        <source>The measurement is used as before. Repair again when the room is clear.</source>
+        <translation>測定はこれまでどおり使われます。退避が完了したらもう一度修復してください。</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>ほとんど一致しません。カメラを元に戻すか、向きを合わせて再測定してください。</translation>
+    </message>
+    <message>
+        <source>The output is closed. A picture to be photographed is projected.</source>
+        <translation>出力は閉じています。撮影用の画像を投影しています。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6753,6 +6834,18 @@ projector %2</source>
     <message>
         <source>The picture is being perfected.</source>
         <translation>画像を仕上げています。</translation>
+    </message>
+    <message>
+        <source>perfected, %1 before, %2 now.</source>
+        <translation>仕上げ済み、以前 %1、現在 %2。</translation>
+    </message>
+    <message>
+        <source>Tried last, %1: %2</source>
+        <translation>前回の対象 %1：%2</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>退避が確認されていないため、点滅しないようゆっくり行います。</translation>
     </message>
 </context>
 <context>

@@ -595,8 +595,8 @@
 <context>
     <name>alarm.light-flickers</name>
     <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>光线闪烁：同一图案的照片相差 {} %</translation>
+        <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
+        <translation>光线闪烁或被开关：同一图案的照片相差 {} %</translation>
     </message>
 </context>
 <context>
@@ -1020,13 +1020,10 @@
     </message>
 </context>
 <context>
-    <name>check.picture-out</name>
-    <message numerus="yes">
-        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
-        <translation>
-            <numerusform>图像在发送 {} 帧后显示：等待 {} ms。</numerusform>
-        </translation>
+    <name>check.picture-takes</name>
+    <message>
+        <source>A picture takes {} ms to appear: each one is waited for that long.</source>
+        <translation>画面出现需要 {} ms：每次都会等待这么久。</translation>
     </message>
 </context>
 <context>
@@ -3511,10 +3508,6 @@
         <translation>在最初的图案之后出现，并逐渐变得清晰。</translation>
     </message>
     <message>
-        <source>%1 px blocks</source>
-        <translation>%1 px 块</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>目前预期</translation>
     </message>
@@ -3619,10 +3612,6 @@
         <translation>%1 / 约 %2</translation>
     </message>
     <message>
-        <source>%1; lit: %2 of the view</source>
-        <translation>%1；照亮部分：视野的 %2</translation>
-    </message>
-    <message>
         <source>About %1 left</source>
         <translation>剩余约 %1</translation>
     </message>
@@ -3637,10 +3626,6 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
         <translation>先由测量结果预测测试图案，再拍照：这是两者之差，包括照片的噪声。</translation>
-    </message>
-    <message>
-        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
-        <translation>由于提前停止，图案没有比 %1 px 更细的块：这不能说明更细的光。</translation>
     </message>
     <message>
         <source>%1; light right within about %2</source>
@@ -3910,6 +3895,46 @@
         <source>Use the earlier measurement?</source>
         <translation>使用较早的测量？</translation>
     </message>
+    <message>
+        <source>%1; lit, within the dashes: %2 of the view</source>
+        <translation>%1；照亮部分（虚线内）：视野的 %2</translation>
+    </message>
+    <message>
+        <source>Stopped after %1</source>
+        <translation>在 %1 后停止</translation>
+    </message>
+    <message>
+        <source>Stopped early: light finer than blocks of %1 px is missing.</source>
+        <translation>提前停止：缺少比 %1 px 的块更细的光。</translation>
+    </message>
+    <message>
+        <source>Again, not ended</source>
+        <translation>重测未结束</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read</source>
+        <translation>无法读取测得的内容</translation>
+    </message>
+    <message>
+        <source>Use the earlier measurement, or measure again.</source>
+        <translation>请使用之前的测量，或重新测量。</translation>
+    </message>
+    <message>
+        <source>Measure again.</source>
+        <translation>请重新测量。</translation>
+    </message>
+    <message>
+        <source>%1 dB expected: what was measured does not fit together, and pictures are no better than uncorrected.</source>
+        <translation>预计 %1 dB：测得的内容互不吻合，画面不会比未校正时更好。</translation>
+    </message>
+    <message>
+        <source>%1 dB expected. Go on any time, if nothing has moved.</source>
+        <translation>预计 %1 dB。如果没有东西移动过，可随时继续。</translation>
+    </message>
+    <message>
+        <source>What was measured cannot be read.</source>
+        <translation>无法读取测得的内容。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4018,10 +4043,6 @@
         <translation>无闪烁</translation>
     </message>
     <message>
-        <source>The light flickers</source>
-        <translation>光线闪烁</translation>
-    </message>
-    <message>
         <source>Photographs of one pattern agree within %1.</source>
         <translation>同一图案的照片相差不超过 %1。</translation>
     </message>
@@ -4068,6 +4089,10 @@
     <message>
         <source>Not known while the view has changed.</source>
         <translation>视野不同时无法判断。</translation>
+    </message>
+    <message>
+        <source>The light flickers, or was switched</source>
+        <translation>光线闪烁或被开关</translation>
     </message>
 </context>
 <context>
@@ -4476,6 +4501,14 @@
     <message>
         <source>Stop the checks</source>
         <translation>停止检查</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the checks begin with that.</source>
+        <translation>请确认已清场：确认后检查随即开始。</translation>
+    </message>
+    <message>
+        <source>as it was seen last, exposure %1</source>
+        <translation>上次看到的画面，曝光 %1</translation>
     </message>
 </context>
 <context>
@@ -5303,6 +5336,22 @@
         <source>Less light from this screen falls into the room (F9)</source>
         <translation>减少本屏幕落入场内的光 (F9)</translation>
     </message>
+    <message>
+        <source>Undone: %1</source>
+        <translation>已撤销：%1</translation>
+    </message>
+    <message>
+        <source>Nothing to undo here</source>
+        <translation>此处没有可撤销的操作</translation>
+    </message>
+    <message>
+        <source>Done again: %1</source>
+        <translation>已重做：%1</translation>
+    </message>
+    <message>
+        <source>Nothing to do again</source>
+        <translation>没有可重做的操作</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MaskEditing</name>
@@ -5701,6 +5750,14 @@ projector %2</source>
         <source>In a rehearsal it comes back by itself while you look.</source>
         <translation>排练时，它会在您观看时自行回到原位。</translation>
     </message>
+    <message>
+        <source>%1° clockwise</source>
+        <translation>顺时针 %1°</translation>
+    </message>
+    <message>
+        <source>%1° anticlockwise</source>
+        <translation>逆时针 %1°</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -5751,10 +5808,6 @@ projector %2</source>
     <message>
         <source>The measurement still holds</source>
         <translation>测量仍然有效</translation>
-    </message>
-    <message>
-        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
-        <translation>几乎全不吻合。请重新对准、对焦并测量全部内容。</translation>
     </message>
     <message>
         <source>Verification</source>
@@ -6630,6 +6683,34 @@ projector %2</source>
         <source>No program here opens it: open it by hand, or take it to another computer.</source>
         <translation>此处没有可打开它的程序：请手动打开，或将其带到另一台计算机。</translation>
     </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>图片：%1</translation>
+    </message>
+    <message>
+        <source>The check was ended: the room is not said to be clear</source>
+        <translation>检查已结束：不再确认已清场</translation>
+    </message>
+    <message>
+        <source>It came to no result. Check again when the room is clear.</source>
+        <translation>没有得出结果。清场后请再次检查。</translation>
+    </message>
+    <message>
+        <source>The repair was ended: the room is not said to be clear</source>
+        <translation>修复已结束：不再确认已清场</translation>
+    </message>
+    <message>
+        <source>The measurement is used as before. Repair again when the room is clear.</source>
+        <translation>测量照旧使用。清场后请再次修复。</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>几乎全不吻合。请把相机放回原位，或重新对准并测量。</translation>
+    </message>
+    <message>
+        <source>The output is closed. A picture to be photographed is projected.</source>
+        <translation>输出已关闭。正在投影用于拍摄的图片。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6753,6 +6834,18 @@ projector %2</source>
     <message>
         <source>The picture is being perfected.</source>
         <translation>正在完善图片。</translation>
+    </message>
+    <message>
+        <source>perfected, %1 before, %2 now.</source>
+        <translation>已完善，之前 %1，现在 %2。</translation>
+    </message>
+    <message>
+        <source>Tried last, %1: %2</source>
+        <translation>上次尝试，%1：%2</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>因未确认清场而缓慢进行：不会闪烁。</translation>
     </message>
 </context>
 <context>

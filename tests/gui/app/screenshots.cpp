@@ -23,6 +23,7 @@
 #include "relucent/base/message.h"
 #include "relucent/calibration/results.h"
 #include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/drift_record.h"
 #include "relucent/venue/venue.h"
 #include "theme/theme.h"
 #include "theme/tick.h"
@@ -331,6 +332,42 @@ void takeStopped(WizardWindow& wizard, Photographs& photographs) {
   photographs.take("06-stopped");
 }
 
+/// Measured again, and back to what was there before: both questions.
+void takeReturning(WizardWindow& wizard, Photographs& photographs) {
+  AcquirePage& acquire = wizard.page<AcquirePage>();
+  wizard.wizard().go(3);
+  acquire.secondary().front()->trigger();
+  wizard.session().live().setLeastInterval(50);
+  until([&] { return acquire.trace().growth().levels.size() > 2; });
+  acquire.secondary().front()->trigger();
+  photographs.takeDialog("04-keep-earlier", "failure");
+  acquire.stopAndKeep();
+  until([&] { return !acquire.isMeasuring(); });
+  wizard.session().live().setLeastInterval(0);
+  photographs.take("04-stopped-again");
+  acquire.secondary().front()->trigger();
+  photographs.takeDialog("04-use-earlier", "failure");
+}
+
+/// A good photograph, and a later check for drift that found something.
+void takeDoubted(WizardWindow& wizard, Photographs& photographs) {
+  const std::filesystem::path path = wizard.session().path();
+  DriftRecord drift;
+  drift.checked = QDateTime::currentDateTimeUtc().addSecs(60).toString(Qt::ISODate).toStdString();
+  drift.measurement = wizard.session().result(Stage::acquisition)->stored;
+  drift.verdict = acquisition::Verdict::remeasure;
+  drift.error = 0.08;
+  drift.errorThen = 0.01;
+  drift.changedShare = 0.12;
+  saveDriftRecord(drift, path / "verification");
+  wizard.session().open(path);
+  wizard.wizard().go(7);
+  wizard.page<OutputPage>().open();
+  until([&] { return !wizard.page<OutputPage>().projection().mirror().isNull(); });
+  photographs.take("08-doubted");
+  wizard.page<OutputPage>().close();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -371,6 +408,7 @@ int main(int argc, char** argv) {
   if (argc < 6) {
     takeMeasuring(wizard, photographs, own);
     takeStopped(wizard, photographs);
+    takeReturning(wizard, photographs);
   }
   wizard.page<VenuePage>().open(QString::fromStdString(calibration.string()));
   wizard.wizard().go(0);
@@ -471,6 +509,7 @@ int main(int argc, char** argv) {
   photographs.take("08-out-of-date");
   wizard.page<OutputPage>().close();
   photographs.take("08-closed");
+  takeDoubted(wizard, photographs);
   takeReasons(wizard, photographs);
   QTest::mouseClick(wizard.window().findChild<QPushButton*>("open-settings"), Qt::LeftButton);
   photographs.takeDialog("10-settings", "settings");

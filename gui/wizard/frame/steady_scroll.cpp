@@ -35,8 +35,11 @@ void SteadyScroll::scrollContentsBy(int x, int y) {
 }
 
 bool SteadyScroll::eventFilter(QObject* watched, QEvent* event) {
-  if (watched != widget() || event->type() != QEvent::LayoutRequest || !isVisible())
+  // What is shown lays the column out at once, which makes it higher; what goes does so later.
+  const bool isLaidOut = event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize;
+  if (watched != widget() || !isLaidOut || !isVisible() || isHolding_)
     return QScrollArea::eventFilter(watched, event);
+  isHolding_ = true;
   const Seen* held = anchor();
   const QPointer<QWidget> widget = held != nullptr ? held->widget : nullptr;
   const int before = held != nullptr ? held->where.top() : 0;
@@ -46,6 +49,7 @@ bool SteadyScroll::eventFilter(QObject* watched, QEvent* event) {
     QScrollBar* bar = verticalScrollBar();
     bar->setValue(bar->value() + placeOf(*widget).top() - before);
   }
+  isHolding_ = false;
   look();
   return isTaken;
 }
@@ -54,10 +58,11 @@ QRect SteadyScroll::placeOf(const QWidget& widget) const {
   return {widget.mapTo(viewport(), QPoint(0, 0)), widget.size()};
 }
 
+/// Not while the column is laid out: what moves meanwhile is held against where it stood before.
 /// Parts alone stand still when something in them does not: what counts is what has no parts.
 void SteadyScroll::look() {
+  if (widget() == nullptr || isHolding_) return;
   seen_.clear();
-  if (widget() == nullptr) return;
   const QRect room = viewport()->rect();
   for (QWidget* child : widget()->findChildren<QWidget*>())
     if (child->layout() == nullptr && child->isVisible())

@@ -31,6 +31,7 @@ class SteadyScroll : public QScrollArea {
   const Seen* anchor() const;
 
   std::vector<Seen> seen_;  // as the column stood last, from its top
+  bool isHolding_ = false;
 };
 
 }  // namespace relucent::gui

@@ -377,7 +377,6 @@ class TestSteps : public QObject {
       QVERIFY(progressOf(folder, stage) == StageProgress::stale);
       QVERIFY(inUse(stage) == StageProgress::done);
     }
-    QVERIFY(inUse(Stage::linearization) == StageProgress::stale);
     // Other clusters than were decided on are others than are used.
     CalibrateSettings changed = settingsOf(folder);
     changed.clustering.patchRadius += 1.0;

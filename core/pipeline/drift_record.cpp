@@ -39,7 +39,9 @@ void saveDriftRecord(const DriftRecord& record, const fs::path& folder) {
                                {"verdict", acquisition::toString(record.verdict)},
                                {"error", record.error},
                                {"error_then", record.errorThen},
-                               {"changed_share", record.changedShare}};
+                               {"changed_share", record.changedShare},
+                               {"ambient", record.ambient},
+                               {"lamp", record.lamp}};
   writeFileAtomically(folder / driftRecordName, json.dump(2));
 }
 
@@ -53,7 +55,9 @@ std::optional<DriftRecord> loadDriftRecord(const fs::path& folder) {
                        verdictFrom(json.at("verdict").get<std::string>(), file),
                        json.at("error").get<double>(),
                        json.at("error_then").get<double>(),
-                       json.at("changed_share").get<double>()};
+                       json.at("changed_share").get<double>(),
+                       json.value("ambient", 0.0),
+                       json.value("lamp", 1.0)};
   } catch (const calibration::Json::exception& cause) {
     failUnreadable(cause.what(), file);
   }

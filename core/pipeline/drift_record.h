@@ -17,6 +17,8 @@ struct DriftRecord {
   double error = 0.0;         // of the test patterns now, relative
   double errorThen = 0.0;     // and when they were measured
   double changedShare = 0.0;  // of the view
+  double ambient = 0.0;       // what the room is brighter by, of full light
+  double lamp = 1.0;          // of the projector's light, a share of what it was
 };
 
 inline constexpr const char* driftRecordName = "drift.json";

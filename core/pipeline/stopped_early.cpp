@@ -6,7 +6,8 @@
 namespace relucent::pipeline {
 
 Message stoppedEarly(int blocks, const std::optional<transport::ExpectedQuality>& expected) {
-  if (!expected)
+  // Where more would not help, there is no forecast of it.
+  if (!expected || expected->photographs == 0)
     return RELUCENT_MESSAGE(
                "acquisition.stopped-early",
                "Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are "

@@ -174,6 +174,16 @@ void showDrift(Remark& remark, const OutputProof& proof, bool hasMoved) {
       OutputPage::tr("Checked %1.").arg(timeText(checked)) + '\n' +
       OutputPage::tr("Error of the test patterns: %1, when measured %2. %3 of the view changed.")
           .arg(percentText(drift->error), percentText(drift->errorThen), percentText(drift->changedShare));
+  // What else is other than it was, where that is not next to nothing.
+  constexpr double leastAmbient = 0.002, leastLamp = 0.02;
+  if (std::abs(drift->ambient) >= leastAmbient)
+    meaning += '\n' + (drift->ambient > 0.0 ? OutputPage::tr("The room is brighter by %1 of full light.")
+                                            : OutputPage::tr("The room is darker by %1 of full light."))
+                          .arg(percentText(std::abs(drift->ambient)));
+  if (std::abs(drift->lamp - 1.0) >= leastLamp)
+    meaning +=
+        '\n' +
+        OutputPage::tr("The projector gives %1 of the light that it gave.").arg(percentText(drift->lamp));
   if (hasMoved && drift->verdict != acquisition::Verdict::stillGood)
     return remark.show(Remark::Kind::warning,
                        OutputPage::tr("Put the camera back, or repair the calibration."), meaning);

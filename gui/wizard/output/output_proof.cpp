@@ -191,7 +191,9 @@ void OutputProof::checkDrift() {
                                          result.judgement.verdict,
                                          result.found.error,
                                          result.errorThen,
-                                         result.found.changedShare};
+                                         result.found.changedShare,
+                                         result.found.ambient,
+                                         result.found.lamp};
     pipeline::saveDriftRecord(*found->drift, proofFolder(work.path));
   });
 }

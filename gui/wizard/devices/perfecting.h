@@ -40,6 +40,8 @@ class Perfecting : public QObject {
   /// Which one that was, a file or resource, and whether it is the one that the page shows.
   const QString& tried() const { return tried_; }
   bool isOfShown() const { return tried_ == picture_; }
+  /// The one that the page shows.
+  const QString& picture() const { return picture_; }
   /// Whether pictures follow each other slowly, since the room is not said to be clear.
   bool isSlow() const { return !session_.mayMeasure(); }
 

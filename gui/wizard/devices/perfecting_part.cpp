@@ -17,11 +17,22 @@
 namespace relucent::gui {
 namespace {
 
-/// Camera after camera.
-QString figures(const std::vector<pipeline::PictureError>& views) {
-  QStringList errors;
-  for (const pipeline::PictureError& view : views) errors << decimalText(view.deltaE, 1);
-  return isolated(QString::fromUtf8("ΔE %1").arg(errors.join(", ")));
+/// Camera after camera; with as many decimals as tell one from the other.
+QString figures(const std::vector<pipeline::PictureError>& views,
+                const std::vector<pipeline::PictureError>& others) {
+  const auto textsOf = [](const std::vector<pipeline::PictureError>& all, int decimals) {
+    QStringList errors;
+    for (const pipeline::PictureError& view : all) errors << decimalText(view.deltaE, decimals);
+    return errors;
+  };
+  const bool areAlike = textsOf(views, 1) == textsOf(others, 1);
+  return isolated(QString::fromUtf8("ΔE %1").arg(textsOf(views, areAlike ? 2 : 1).join(", ")));
+}
+
+QString nameOf(const QString& picture) {
+  PlaylistItem item;
+  item.path = picture;
+  return isolated(OutputPlaylist::nameOf(item));
 }
 
 QString dateText(const std::string& iso) {
@@ -49,13 +60,11 @@ QString vainText(const Perfecting& perfecting) {
 QString elsewhereText(const Perfecting& perfecting) {
   const auto& outcome = perfecting.outcome();
   if (!outcome || perfecting.isOfShown()) return {};
-  PlaylistItem tried;
-  tried.path = perfecting.tried();
-  const QString result = outcome->kept
-                             ? Perfecting::tr("perfected, %1 before, %2 now.")
-                                   .arg(figures(outcome->before.views), figures(outcome->after.views))
-                             : vainText(*outcome);
-  return Perfecting::tr("Tried last, %1: %2").arg(isolated(OutputPlaylist::nameOf(tried)), result);
+  const QString result = outcome->kept ? Perfecting::tr("perfected, %1 before, %2 now.")
+                                             .arg(figures(outcome->before.views, outcome->after.views),
+                                                  figures(outcome->after.views, outcome->before.views))
+                                       : vainText(*outcome);
+  return Perfecting::tr("Tried last, %1: %2").arg(nameOf(perfecting.tried()), result);
 }
 
 void showState(Remark& remark, const Perfecting& perfecting) {
@@ -70,13 +79,18 @@ void showState(Remark& remark, const Perfecting& perfecting) {
             : taken);
   }
   const QString elsewhere = elsewhereText(perfecting);
+  // Of a list that plays, which one is meant.
   const auto withElsewhere = [&](const QString& meaning) {
-    return elsewhere.isEmpty() ? meaning : elsewhere + '\n' + meaning;
+    QStringList lines{Perfecting::tr("Picture: %1").arg(nameOf(perfecting.picture())), meaning};
+    if (perfecting.picture().isEmpty()) lines.removeFirst();
+    if (!elsewhere.isEmpty()) lines << elsewhere;
+    return lines.join('\n');
   };
   if (const auto& known = perfecting.known()) {
     const QString better =
         Perfecting::tr("%1: %2 before, %3 now, by %n photograph(s).", nullptr, known->figures.photographs)
-            .arg(dateText(known->perfected), figures(known->figures.before), figures(known->figures.after));
+            .arg(dateText(known->perfected), figures(known->figures.before, known->figures.after),
+                 figures(known->figures.after, known->figures.before));
     return remark.show(Remark::Kind::good, Perfecting::tr("This picture is perfected"),
                        withElsewhere(vain.isEmpty() ? better : better + '\n' + vain));
   }

@@ -322,18 +322,18 @@ class CameraInspector {
   static QWidget* make(CameraPage& model) {
     QVBoxLayout* column = nullptr;
     QWidget* card = inspectorCard(column);
-    // Above the fold: nothing is looked at without it.
-    column->addWidget(consentWidget(model));
-    // Then what is looked at while somebody turns the lens or aims, and what stands against going on.
+    // First what is looked at while somebody turns the lens or aims, and what stands against going on.
     auto* focus = new ValueRow(CameraPage::tr("Focus"));
     auto* meter = new FocusMeter;
     column->addWidget(focus);
     column->addWidget(meter);
-    QLabel* best =
+    QLabel* advice =
         labelOf(CameraPage::tr("Turn the lens until the bar stays at the mark: the best so far."), "note");
-    column->addWidget(best);
-    column->addWidget(lineOf());
+    column->addWidget(advice);
+    QFrame* line = lineOf();
+    column->addWidget(line);
     column->addWidget(checksPart(model));
+    column->addWidget(consentWidget(model));  // they are what it is for
     column->addWidget(lineOf());
     QLabel* exposuresTitle = labelOf(CameraPage::tr("Exposures"), "section");
     column->addWidget(exposuresTitle);
@@ -356,7 +356,11 @@ class CameraInspector {
     column->addWidget(pixelUseView(model));
     column->addStretch(1);
 
-    auto refresh = [&model, histogram, focus, meter, group, exposuresTitle] {
+    auto refresh = [&model, histogram, focus, meter, advice, line, group, exposuresTitle] {
+      // Where nothing is looked at before somebody agrees, what asks for it is in sight in the lowest window.
+      const bool isAwaited = !model.isLooking() && !model.session().mayMeasure();
+      for (QWidget* part : std::initializer_list<QWidget*>{focus, meter, advice, line})
+        part->setVisible(!isAwaited);
       bool seen = model.look().has_value();
       if (seen) {
         histogram->setAxes(axisOf(0.0, 1.0, CameraPage::tr("Signal, share of full")),
@@ -383,7 +387,8 @@ class CameraInspector {
         if (used) group->button(i)->setChecked(static_cast<std::size_t>(i) == model.exposure());
       }
     };
-    refreshOn(model, card, refresh, &CameraPage::settingsChanged, &CameraPage::resultChanged);
+    refreshOn(model, card, refresh, &CameraPage::settingsChanged, &CameraPage::resultChanged,
+              &CameraPage::statusChanged);
     return card;
   }
 };

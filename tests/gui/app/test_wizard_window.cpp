@@ -205,8 +205,10 @@ class TestWizardWindow : public QObject {
     camera.traits.size = {64, 48};
     venue.finder().setLister([camera] { return devices::CameraList{{}, {camera}}; });
     venue.setMode(VenuePage::Mode::devices);
+    // Those of this computer may still be looked for.
+    QTRY_VERIFY_WITH_TIMEOUT(!venue.finder().isLooking(), patience);
     venue.finder().look();
-    QTRY_VERIFY(!venue.finder().isLooking());
+    QTRY_VERIFY_WITH_TIMEOUT(!venue.finder().isLooking(), patience);
     wizard_->window().activateWindow();
     QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
     const auto* tick = find<QAbstractButton>("room-is-clear");
@@ -214,6 +216,7 @@ class TestWizardWindow : public QObject {
       QTRY_VERIFY(find<QAbstractButton>("choose-camera")->isVisible());
       auto* choose = find<QAbstractButton>("choose-camera");
       choose->setFocus();
+      QVERIFY(choose->hasFocus());
       for (int presses = 0; presses < 2; ++presses) {
         QWidget* focus = wizard_->window().focusWidget();
         QTest::keyClick(focus != nullptr ? focus : &wizard_->window(), Qt::Key_Space);

@@ -6891,6 +6891,18 @@ projector %2</source>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>الخرج مغلق. تُعرض صورة لتصويرها.</translation>
     </message>
+    <message>
+        <source>The room is brighter by %1 of full light.</source>
+        <translation>القاعة أسطع بمقدار ⁨%1⁩ من كامل الضوء.</translation>
+    </message>
+    <message>
+        <source>The room is darker by %1 of full light.</source>
+        <translation>القاعة أعتم بمقدار ⁨%1⁩ من كامل الضوء.</translation>
+    </message>
+    <message>
+        <source>The projector gives %1 of the light that it gave.</source>
+        <translation>يعطي جهاز العرض ⁨%1⁩ من الضوء الذي كان يعطيه.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7036,6 +7048,10 @@ projector %2</source>
     <message>
         <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
         <translation>ببطء، إذ لم يؤكَّد أن القاعة خالية: لا شيء يومض.</translation>
+    </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>الصورة: %1</translation>
     </message>
 </context>
 <context>

@@ -6747,6 +6747,18 @@ Projektor %2</translation>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>Die Ausgabe ist geschlossen. Ein Bild zum Fotografieren wird projiziert.</translation>
     </message>
+    <message>
+        <source>The room is brighter by %1 of full light.</source>
+        <translation>Der Raum ist um %1 des vollen Lichts heller.</translation>
+    </message>
+    <message>
+        <source>The room is darker by %1 of full light.</source>
+        <translation>Der Raum ist um %1 des vollen Lichts dunkler.</translation>
+    </message>
+    <message>
+        <source>The projector gives %1 of the light that it gave.</source>
+        <translation>Der Projektor gibt %1 des Lichts, das er gab.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6884,6 +6896,10 @@ Projektor %2</translation>
     <message>
         <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
         <translation>Langsam, da der Raum nicht als geräumt bestätigt ist: Nichts blitzt.</translation>
+    </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>Bild: %1</translation>
     </message>
 </context>
 <context>

@@ -6747,6 +6747,18 @@ proyector %2</translation>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>La salida está cerrada. Se proyecta una imagen para fotografiarla.</translation>
     </message>
+    <message>
+        <source>The room is brighter by %1 of full light.</source>
+        <translation>La sala es más clara en un %1 de la luz plena.</translation>
+    </message>
+    <message>
+        <source>The room is darker by %1 of full light.</source>
+        <translation>La sala es más oscura en un %1 de la luz plena.</translation>
+    </message>
+    <message>
+        <source>The projector gives %1 of the light that it gave.</source>
+        <translation>El proyector da el %1 de la luz que daba.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6884,6 +6896,10 @@ proyector %2</translation>
     <message>
         <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
         <translation>Despacio, pues la sala no consta como despejada: nada destella.</translation>
+    </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>Imagen: %1</translation>
     </message>
 </context>
 <context>

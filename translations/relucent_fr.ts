@@ -3947,7 +3947,7 @@
     </message>
     <message>
         <source>%1 dB expected: what was measured does not fit together, and pictures are no better than uncorrected.</source>
-        <translation>%1 dB attendus : les mesures ne concordent pas et les images ne sont pas meilleures que sans correction.</translation>
+        <translation>%1 dB attendus&#x202f;: les mesures ne concordent pas et les images ne sont pas meilleures que sans correction.</translation>
     </message>
     <message>
         <source>%1 dB expected. Go on any time, if nothing has moved.</source>
@@ -6747,6 +6747,18 @@ projecteur %2</translation>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>La sortie est fermée. Une image à photographier est projetée.</translation>
     </message>
+    <message>
+        <source>The room is brighter by %1 of full light.</source>
+        <translation>La salle est plus claire de %1 de la pleine lumière.</translation>
+    </message>
+    <message>
+        <source>The room is darker by %1 of full light.</source>
+        <translation>La salle est plus sombre de %1 de la pleine lumière.</translation>
+    </message>
+    <message>
+        <source>The projector gives %1 of the light that it gave.</source>
+        <translation>Le projecteur donne %1 de la lumière qu’il donnait.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6884,6 +6896,10 @@ projecteur %2</translation>
     <message>
         <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
         <translation>Lentement, car la salle n’est pas confirmée évacuée&#xa0;: rien ne clignote.</translation>
+    </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>Image&#xa0;: %1</translation>
     </message>
 </context>
 <context>

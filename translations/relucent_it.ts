@@ -6747,6 +6747,18 @@ proiettore %2</translation>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>L’uscita è chiusa. Si proietta un’immagine da fotografare.</translation>
     </message>
+    <message>
+        <source>The room is brighter by %1 of full light.</source>
+        <translation>La sala è più chiara del %1 della luce piena.</translation>
+    </message>
+    <message>
+        <source>The room is darker by %1 of full light.</source>
+        <translation>La sala è più scura del %1 della luce piena.</translation>
+    </message>
+    <message>
+        <source>The projector gives %1 of the light that it gave.</source>
+        <translation>Il proiettore dà il %1 della luce che dava.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6884,6 +6896,10 @@ proiettore %2</translation>
     <message>
         <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
         <translation>Lentamente, perché la sala non è confermata sgombra: nulla lampeggia.</translation>
+    </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>Immagine: %1</translation>
     </message>
 </context>
 <context>

@@ -6711,6 +6711,18 @@ projector %2</source>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>出力は閉じています。撮影用の画像を投影しています。</translation>
     </message>
+    <message>
+        <source>The room is brighter by %1 of full light.</source>
+        <translation>部屋は全点灯の %1 だけ明るくなっています。</translation>
+    </message>
+    <message>
+        <source>The room is darker by %1 of full light.</source>
+        <translation>部屋は全点灯の %1 だけ暗くなっています。</translation>
+    </message>
+    <message>
+        <source>The projector gives %1 of the light that it gave.</source>
+        <translation>プロジェクターの光は以前の %1 です。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6846,6 +6858,10 @@ projector %2</source>
     <message>
         <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
         <translation>退避が確認されていないため、点滅しないようゆっくり行います。</translation>
+    </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>画像：%1</translation>
     </message>
 </context>
 <context>

@@ -6711,6 +6711,18 @@ projector %2</source>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>输出已关闭。正在投影用于拍摄的图片。</translation>
     </message>
+    <message>
+        <source>The room is brighter by %1 of full light.</source>
+        <translation>房间变亮了全亮光的 %1。</translation>
+    </message>
+    <message>
+        <source>The room is darker by %1 of full light.</source>
+        <translation>房间变暗了全亮光的 %1。</translation>
+    </message>
+    <message>
+        <source>The projector gives %1 of the light that it gave.</source>
+        <translation>投影机的光为之前的 %1。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6846,6 +6858,10 @@ projector %2</source>
     <message>
         <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
         <translation>因未确认清场而缓慢进行：不会闪烁。</translation>
+    </message>
+    <message>
+        <source>Picture: %1</source>
+        <translation>图片：%1</translation>
     </message>
 </context>
 <context>

@@ -424,7 +424,7 @@ void AcquirePage::start(bool anew) {
   anew_ = anew;
   lease_ = session_.leaseDevices(stepName, DeviceWork::measurement, [this] {
     if (isCountingDown()) return stay();
-    if (isMeasuring() && !isPaused() && !isStopping()) pause();
+    if (isMeasuring() && !isPaused()) pause();  // also while it ends: last patterns flash, too
   });
   if (secondsToLeave_ == 0 || !session_.hasLight()) return begin();
   secondsLeftToLeave_ = secondsToLeave_;
@@ -440,6 +440,7 @@ void AcquirePage::stay() {
 }
 
 void AcquirePage::begin() {
+  undoStack().clear();  // what is measured with is not taken back by the way
   leaving_.stop();
   question_->setClosed(false);
   alarm_.reset();

@@ -131,7 +131,10 @@ void AcquirePage::stopAndKeep() {
   job_.stopAndKeep();
   if (isAsking()) answer(sentinels::Answer::keepAndStop);
   session_.giveUpCamera();
-  resume();
+  // What it ends with are patterns, too.
+  if (session_.mayMeasure()) return resume();
+  tellProgress();
+  tellStatus();
 }
 
 void AcquirePage::askToReturn() {

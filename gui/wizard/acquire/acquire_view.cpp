@@ -129,7 +129,7 @@ QWidget* stageOf(AcquirePage& model) {
 
 /// How long it still takes; held up, that stands still.
 QString timeText(const AcquirePage& model) {
-  if (model.isStopping()) return AcquirePage::tr("Ending");
+  if (model.isStopping() && !model.isPaused()) return AcquirePage::tr("Ending");
   const std::optional<double> seconds = model.secondsLeft();
   const bool isPaused = model.isPaused() || model.isDiskFull();
   if (!seconds)

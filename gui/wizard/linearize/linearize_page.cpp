@@ -205,6 +205,7 @@ void LinearizePage::keepLevels(int levels) {
 void LinearizePage::measure(bool again) {
   if (isMeasuring() || !session_.areDevicesFree() || !session_.mayMeasure()) return;
   lease_ = session_.leaseDevices(stepName, DeviceWork::measurement, [this] { finish(); });
+  undoStack().clear();  // what is measured with is not taken back by the way
   begunAt_ = photographsOf(session_);
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again, room = &room_](Progress& progress) {

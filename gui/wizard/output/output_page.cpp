@@ -53,7 +53,13 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&session_, &Session::stepsChanged, this, [this] {
     followScreen();
     QString picture = QString::fromStdString(session_.settings().content.picture);
-    if (session_.isOpen() && std::exchange(preferred_, picture) != picture) playlist_.prefer(picture);
+    if (session_.isOpen() && std::exchange(preferred_, picture) != picture) {
+      const PlaylistSettings before = playlist_.settings();
+      playlist_.prefer(picture);
+      // What plays is counted by its place in the list.
+      if (isOpen() && !(playlist_.settings().items == before.items))
+        projection_.setList(playlist_.settings());
+    }
     if (chosen_.size() != projectors()) listScreens();
     tellAll();
   });

@@ -443,6 +443,34 @@ class TestWhileMeasuring : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(session_->areDevicesFree(), 2'000);
   }
 
+  /// Law: a measurement that ends shows patterns, too: it pauses, and goes on to its end with the consent.
+  void whatEndsWaitsForTheConsentToo() {
+    own_->begin(scriptedVenue("true {image}", "sleep 8 # {exposure} {output}"));
+    session_->setRoomClear(true);
+    AcquirePage page(*session_);
+    page.setSecondsToLeave(0);
+    page.primary()->trigger();
+    QVERIFY(page.isMeasuring() && !page.isPaused());
+    page.stopAndKeep();
+    QVERIFY(page.isStopping() && !page.isPaused());
+    session_->setRoomClear(false);
+    QVERIFY(page.isPaused());
+    page.stopAndKeep();  // once more is no consent
+    QVERIFY(page.isPaused());
+    const auto resume = [&page] {
+      for (PageCommand* command : page.secondary())
+        if (command->text() == AcquirePage::tr("Resume")) return command;
+      return static_cast<PageCommand*>(nullptr);
+    };
+    QVERIFY(resume() && !resume()->isEnabled());
+    session_->setRoomClear(true);
+    QVERIFY(page.isPaused() && resume() && resume()->isEnabled());
+    resume()->trigger();
+    QVERIFY(!page.isPaused());
+    page.finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), 2'000);
+  }
+
   /// Law: a photograph that does not come is said before anything fails.
   void aSilentCameraIsSaid() {
     own_->begin(scriptedVenue("true {image}", "sleep 8 # {exposure} {output}"));

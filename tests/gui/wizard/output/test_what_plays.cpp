@@ -240,6 +240,30 @@ class TestWhatPlays : public QObject {
     QTRY_VERIFY(marked());
   }
 
+  /// Law: the list that is seen is the one that plays, also when a picture comes to it from Preview: what is
+  /// marked in it is what is meant.
+  void aPictureFromPreviewPlaysAtItsPlace() {
+    QFile broken(QString::fromStdString(own_.path("broken.png").string()));
+    QVERIFY(broken.open(QIODevice::WriteOnly) && broken.write("no picture") > 0);
+    broken.close();
+    const QString preferred = QString::fromStdString(own_.path("preferred.png").string());
+    QImage picture(16, 12, QImage::Format_RGB32);
+    picture.fill(Qt::gray);
+    QVERIFY(picture.save(preferred));
+    page_->addFiles({broken.fileName()});
+    openOutput();
+    const auto skipped = [&] {
+      const auto all = page_->projection().skipped();
+      return all.empty() ? QString() : page_->playlist().settings().items.at(all.front().index).path;
+    };
+    QTRY_COMPARE_WITH_TIMEOUT(skipped(), broken.fileName(), patience);
+    change([&](pipeline::CalibrateSettings& s) { s.content.picture = preferred.toStdString(); });
+    QCOMPARE(page_->playlist().settings().items.front().path, preferred);
+    QVERIFY(page_->isOpen() && (skipped().isEmpty() || skipped() == broken.fileName()));
+    QTRY_COMPARE_WITH_TIMEOUT(skipped(), broken.fileName(), patience);
+    QCOMPARE(page_->projection().skipped().front().index, qsizetype{2});
+  }
+
   /// Law: what photographs of the picture have made better is what plays from then on, until it is to be
   /// shown as before, or in another way.
   void aPerfectedPicturePlays() {

@@ -6181,10 +6181,6 @@ projector %2</source>
         <translation>ما يعرضه جهاز العرض</translation>
     </message>
     <message>
-        <source>The output is closed. Nothing is projected.</source>
-        <translation>الخرج مغلق. لا يُعرض شيء.</translation>
-    </message>
-    <message>
         <source>Photograph of the surface</source>
         <translation>لقطة السطح</translation>
     </message>
@@ -6600,10 +6596,6 @@ projector %2</source>
         <translation>لم يتحرك شيء: لا يبقى عند «العتبة» سوى %1 من الضوء، فتنقص الانعكاسات، في التوقع أيضًا. احتفظ بالمزيد منه.</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
-        <translation>لم يتحرك شيء: جزء من الصورة خارج متناول جهاز العرض. تفيد صورة أعتم أو مكان آخر لها.</translation>
-    </message>
-    <message>
         <source>The show of another venue will no longer start at log-in.</source>
         <translation>لن يبدأ عرض موقع آخر عند تسجيل الدخول بعد الآن.</translation>
     </message>
@@ -6902,6 +6894,14 @@ projector %2</source>
     <message>
         <source>The projector gives %1 of the light that it gave.</source>
         <translation>يعطي جهاز العرض ⁨%1⁩ من الضوء الذي كان يعطيه.</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected from here.</source>
+        <translation>الخرج مغلق. لا يُعرض شيء من هنا.</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>لم يتحرك شيء: جزء من الصورة خارج متناول جهاز العرض، أغمق من أسوده هناك أو أسطع من أبيضه. تفيد صورة أخرى أو موضع آخر لها.</translation>
     </message>
 </context>
 <context>

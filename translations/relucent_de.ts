@@ -6041,10 +6041,6 @@ Projektor %2</translation>
         <translation>Was der Projektor zeigt</translation>
     </message>
     <message>
-        <source>The output is closed. Nothing is projected.</source>
-        <translation>Die Ausgabe ist geschlossen. Es wird nichts projiziert.</translation>
-    </message>
-    <message>
         <source>Photograph of the surface</source>
         <translation>Foto der Oberfläche</translation>
     </message>
@@ -6456,10 +6452,6 @@ Projektor %2</translation>
         <translation>Nichts hat sich bewegt: Bei „Schwelle“ bleiben nur %1 des Lichts, so dass Reflexe fehlen, auch in der Vorhersage. Behalten Sie mehr davon.</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
-        <translation>Nichts hat sich bewegt: Ein Teil des Bildes ist außer Reichweite des Projektors. Ein dunkleres Bild oder ein anderer Ort dafür hilft.</translation>
-    </message>
-    <message>
         <source>The show of another venue will no longer start at log-in.</source>
         <translation>Die Show eines anderen Spielorts startet dann nicht mehr bei der Anmeldung.</translation>
     </message>
@@ -6758,6 +6750,14 @@ Projektor %2</translation>
     <message>
         <source>The projector gives %1 of the light that it gave.</source>
         <translation>Der Projektor gibt %1 des Lichts, das er gab.</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected from here.</source>
+        <translation>Die Ausgabe ist geschlossen. Von hier wird nichts projiziert.</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>Nichts hat sich bewegt: Ein Teil des Bildes liegt außerhalb der Reichweite des Projektors, dunkler als sein Schwarz oder heller als sein Weiß an dieser Stelle. Ein anderes Bild oder ein anderer Platz dafür hilft.</translation>
     </message>
 </context>
 <context>

@@ -6041,10 +6041,6 @@ proyector %2</translation>
         <translation>Lo que muestra el proyector</translation>
     </message>
     <message>
-        <source>The output is closed. Nothing is projected.</source>
-        <translation>La salida está cerrada. No se proyecta nada.</translation>
-    </message>
-    <message>
         <source>Photograph of the surface</source>
         <translation>Fotografía de la superficie</translation>
     </message>
@@ -6456,10 +6452,6 @@ proyector %2</translation>
         <translation>Nada se ha movido: en «Umbral» solo se conserva el %1 de la luz, de modo que faltan rebotes, también en la previsión. Conserve más.</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
-        <translation>Nada se ha movido: parte de la imagen está fuera del alcance del proyector. Ayuda una imagen más oscura u otro lugar para ella.</translation>
-    </message>
-    <message>
         <source>The show of another venue will no longer start at log-in.</source>
         <translation>El show de otro lugar ya no empezará al iniciar sesión.</translation>
     </message>
@@ -6758,6 +6750,14 @@ proyector %2</translation>
     <message>
         <source>The projector gives %1 of the light that it gave.</source>
         <translation>El proyector da el %1 de la luz que daba.</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected from here.</source>
+        <translation>La salida está cerrada. Desde aquí no se proyecta nada.</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>Nada se ha movido: parte de la imagen está fuera del alcance del proyector, más oscura que su negro o más clara que su blanco en ese lugar. Ayuda otra imagen u otro lugar para ella.</translation>
     </message>
 </context>
 <context>

@@ -6041,10 +6041,6 @@ projecteur %2</translation>
         <translation>Ce que le projecteur affiche</translation>
     </message>
     <message>
-        <source>The output is closed. Nothing is projected.</source>
-        <translation>La sortie est fermée. Rien n’est projeté.</translation>
-    </message>
-    <message>
         <source>Photograph of the surface</source>
         <translation>Photo de la surface</translation>
     </message>
@@ -6456,10 +6452,6 @@ projecteur %2</translation>
         <translation>Rien n’a bougé : au seuil, seuls %1 de la lumière sont gardés, si bien qu’il manque des réflexions, dans la prévision aussi. Gardez-en davantage.</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
-        <translation>Rien n’a bougé : une partie de l’image est hors de portée du projecteur. Une image plus sombre, ou une autre place pour elle, aide.</translation>
-    </message>
-    <message>
         <source>The show of another venue will no longer start at log-in.</source>
         <translation>La diffusion d’un autre lieu ne démarrera plus à l’ouverture de session.</translation>
     </message>
@@ -6758,6 +6750,14 @@ projecteur %2</translation>
     <message>
         <source>The projector gives %1 of the light that it gave.</source>
         <translation>Le projecteur donne %1 de la lumière qu’il donnait.</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected from here.</source>
+        <translation>La sortie est fermée. Rien n’est projeté d’ici.</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>Rien n’a bougé : une partie de l’image est hors de portée du projecteur, plus sombre que son noir ou plus claire que son blanc à cet endroit. Une autre image, ou une autre place, aide.</translation>
     </message>
 </context>
 <context>

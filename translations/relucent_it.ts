@@ -6041,10 +6041,6 @@ proiettore %2</translation>
         <translation>Ciò che mostra il proiettore</translation>
     </message>
     <message>
-        <source>The output is closed. Nothing is projected.</source>
-        <translation>L’uscita è chiusa. Nulla viene proiettato.</translation>
-    </message>
-    <message>
         <source>Photograph of the surface</source>
         <translation>Foto della superficie</translation>
     </message>
@@ -6456,10 +6452,6 @@ proiettore %2</translation>
         <translation>Nulla si è mosso: alla soglia resta solo il %1 della luce, così che mancano riflessi, anche nella previsione. Conservarne di più.</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
-        <translation>Nulla si è mosso: parte dell’immagine è fuori dalla portata del proiettore. Aiuta un’immagine più scura o un altro posto per essa.</translation>
-    </message>
-    <message>
         <source>The show of another venue will no longer start at log-in.</source>
         <translation>Lo show di un altro luogo non partirà più all’accesso.</translation>
     </message>
@@ -6758,6 +6750,14 @@ proiettore %2</translation>
     <message>
         <source>The projector gives %1 of the light that it gave.</source>
         <translation>Il proiettore dà il %1 della luce che dava.</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected from here.</source>
+        <translation>L’uscita è chiusa. Da qui non si proietta nulla.</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>Nulla si è mosso: parte dell’immagine è fuori dalla portata del proiettore, più scura del suo nero o più chiara del suo bianco in quel punto. Aiuta un’altra immagine o un’altra posizione.</translation>
     </message>
 </context>
 <context>

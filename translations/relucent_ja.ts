@@ -6006,10 +6006,6 @@ projector %2</source>
         <translation>プロジェクターの表示内容</translation>
     </message>
     <message>
-        <source>The output is closed. Nothing is projected.</source>
-        <translation>出力は閉じています。何も投影していません。</translation>
-    </message>
-    <message>
         <source>Photograph of the surface</source>
         <translation>投影面の写真</translation>
     </message>
@@ -6420,10 +6416,6 @@ projector %2</source>
         <translation>何も動いていません。「しきい値」で光の%1しか残していないため、予測でも反射光が欠けています。もっと残してください。</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
-        <translation>何も動いていません。画像の一部がプロジェクターの届く範囲を超えています。暗めの画像にするか、別の場所に置いてください。</translation>
-    </message>
-    <message>
         <source>The show of another venue will no longer start at log-in.</source>
         <translation>別の会場のショーは、ログイン時に始まらなくなります。</translation>
     </message>
@@ -6722,6 +6714,14 @@ projector %2</source>
     <message>
         <source>The projector gives %1 of the light that it gave.</source>
         <translation>プロジェクターの光は以前の %1 です。</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected from here.</source>
+        <translation>出力は閉じています。ここからは何も投影していません。</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>何も動いていません。画像の一部がプロジェクターの届く範囲外です（その場所の黒より暗いか、白より明るい）。別の画像か別の位置にすると改善します。</translation>
     </message>
 </context>
 <context>

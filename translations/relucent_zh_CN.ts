@@ -6006,10 +6006,6 @@ projector %2</source>
         <translation>投影机显示的内容</translation>
     </message>
     <message>
-        <source>The output is closed. Nothing is projected.</source>
-        <translation>输出已关闭。当前没有投影。</translation>
-    </message>
-    <message>
         <source>Photograph of the surface</source>
         <translation>表面的照片</translation>
     </message>
@@ -6420,10 +6416,6 @@ projector %2</source>
         <translation>没有任何移动：“阈值”只保留了 %1 的光，因此缺少反射光，预测中也一样。请保留更多。</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
-        <translation>没有任何移动：画面的一部分超出投影机的能力。换用较暗的画面或另一位置会有帮助。</translation>
-    </message>
-    <message>
         <source>The show of another venue will no longer start at log-in.</source>
         <translation>登录时将不再启动另一个场地的节目。</translation>
     </message>
@@ -6722,6 +6714,14 @@ projector %2</source>
     <message>
         <source>The projector gives %1 of the light that it gave.</source>
         <translation>投影机的光为之前的 %1。</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected from here.</source>
+        <translation>输出已关闭。此处没有投影任何内容。</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>没有东西移动：图片的一部分超出投影机的能力，比该处的黑更暗或比该处的白更亮。换一张图片或换个位置会有帮助。</translation>
     </message>
 </context>
 <context>

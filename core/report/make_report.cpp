@@ -92,7 +92,8 @@ ReportComparison predictedComparison(const pipeline::NamedImage& image,
           std::move(inside),
           covered > 0.0 ? reachable / covered : 0.0,
           false,
-          expected.isKnown() ? std::optional(expected.shareIn(0, cameras)) : std::nullopt};
+          expected.isKnown() ? std::optional(expected.shareIn(0, cameras)) : std::nullopt,
+          compensation::unreachableShares(venue, target)};
 }
 
 /// Mean of a map of CIEDE2000, where there is content.

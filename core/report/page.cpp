@@ -76,6 +76,12 @@ bool isAboutStopping(const Message& finding) {
   return finding.id().starts_with("acquisition.stopped-");
 }
 
+/// What most of it is that cannot be reached.
+const char* stays(const ReportComparison& shown) {
+  const bool isBright = shown.unreachable && shown.unreachable->tooBright > shown.unreachable->tooDark;
+  return isBright ? "brighter than it should: black level and room light" : "darker than it should";
+}
+
 /// What stands out, and what was proved.
 void setFindings(Data& page, const ReportData& data) {
   Data warnings(Data::type::list), assurances(Data::type::list);
@@ -90,8 +96,8 @@ void setFindings(Data& page, const ReportData& data) {
         blocks));
   for (const ReportComparison& shown : data.comparisons)
     if (shown.reachable < leastReachable)
-      warnings << Data(fmt::format("{} of “{}” cannot be reached and stays darker than it should.",
-                                   percent(1.0 - shown.reachable), shown.name));
+      warnings << Data(fmt::format("{} of “{}” cannot be reached and stays {}.",
+                                   percent(1.0 - shown.reachable), shown.name, stays(shown)));
   page.set("findings", warnings);
   page.set("assurances", assurances);
 }

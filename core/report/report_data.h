@@ -9,6 +9,7 @@
 
 #include "relucent/acquisition/reverification.h"
 #include "relucent/compensation/ridge_choice.h"
+#include "relucent/compensation/uncorrectable.h"
 #include "relucent/image/image.h"
 #include "relucent/linearization/linearization.h"
 #include "relucent/pipeline/calibrate.h"
@@ -32,6 +33,7 @@ struct ReportComparison {
   double reachable = 0.0;               // share of the content's pixels
   bool truth = false;                   // through a simulated venue's true transport; else predicted from T
   std::optional<double> uncertainty{};  // of a prediction, share of white: 95 of 100 pixels come within
+  std::optional<compensation::UnreachableShares> unreachable{};  // of a prediction: what is not, and why
 };
 
 /// The newest verification photograph: the content, projected as it is and compensated. To look at.

@@ -82,6 +82,8 @@ void VtkView::refuse() {
               "note", this);
   sentence_->setAlignment(Qt::AlignCenter);
   sentence_->setMargin(space::page);
+  // Views are dark in every look.
+  sentence_->setStyleSheet(QString("color: %1;").arg(darkColours().secondary.name()));
   layout()->addWidget(sentence_);
   setAccessibleDescription(sentence_->text());
   if (canvas_ == nullptr) return;

@@ -94,8 +94,8 @@ QString reasonOf(const OutputPage& page, double reachable) {
         .arg(percentText(kept));
   if (reachable < enoughReach)
     return OutputPage::tr(
-        "Nothing has moved: part of the picture is out of the projector's reach. A darker picture, or "
-        "another place for it, helps.");
+        "Nothing has moved: part of the picture is out of the projector's reach, darker than its black or "
+        "brighter than its white there. Another picture, or another place for it, helps.");
   return OutputPage::tr(
       "Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.");
 }

@@ -167,7 +167,7 @@ QString OutputPage::whatIsProjected() const {
     return tr("The output is closed. Patterns to be photographed are projected.");
   if (session_.isProjecting())
     return tr("The output is closed. The devices are in use at %1.").arg(session_.devicesUserName());
-  return tr("The output is closed. Nothing is projected.");
+  return tr("The output is closed. Nothing is projected from here.");
 }
 
 bool OutputPage::isCovered() const {

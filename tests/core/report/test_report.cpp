@@ -306,6 +306,17 @@ class TestReport : public QObject {
     QVERIFY(page.contains("blocks of 4 × 4 pixels") && !page.contains("go on measuring"));
   }
 
+  /// Law: what cannot be reached is said to be what it is: below black as well as above white.
+  void whatCannotBeReachedIsDarkerOrBrighter() {
+    ReportData data = fullData();
+    data.comparisons.front().reachable = 0.4;
+    QVERIFY(html(data).contains("stays darker than it should"));
+    data.comparisons.front().unreachable = {.tooDark = 0.5, .tooBright = 0.1};
+    QVERIFY(html(data).contains("stays darker than it should"));
+    data.comparisons.front().unreachable = {.tooDark = 0.1, .tooBright = 0.5};
+    QVERIFY(html(data).contains("stays brighter than it should"));
+  }
+
   /// Law: a client reads words and units, no names of variables.
   void settingsAreWords_data() {
     QTest::addColumn<CalibrateSettings>("settings");

@@ -388,7 +388,7 @@ class TestWhatPlays : public QObject {
     QFETCH(bool, repairs);
     const PageView view = viewOf(*page_);
     const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
-    const QString nothing = OutputPage::tr("The output is closed. Nothing is projected.");
+    const QString nothing = OutputPage::tr("The output is closed. Nothing is projected from here.");
     const auto says = [&](const QString& sentence) {
       const QList<ImageView*> pictures = stage->findChildren<ImageView*>();
       return std::ranges::any_of(pictures, [&](ImageView* one) { return one->emptyText() == sentence; });

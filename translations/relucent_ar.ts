@@ -5933,6 +5933,10 @@ projector %2</source>
         <source>%1° anticlockwise</source>
         <translation>⁨%1°⁩ عكس عقارب الساعة</translation>
     </message>
+    <message>
+        <source>If the projector was bumped instead, move its picture the other way.</source>
+        <translation>إن كان جهاز العرض هو الذي صُدم، فحرّك صورته في الاتجاه المعاكس.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6902,6 +6906,18 @@ projector %2</source>
     <message>
         <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
         <translation>لم يتحرك شيء: جزء من الصورة خارج متناول جهاز العرض، أغمق من أسوده هناك أو أسطع من أبيضه. تفيد صورة أخرى أو موضع آخر لها.</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>تُلتقط صورة.</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>ببطء، إذ لم يؤكَّد أن القاعة خالية: لا شيء يومض.</translation>
+    </message>
+    <message>
+        <source>It plays this playlist with the measurement that is in use by then.</source>
+        <translation>يشغّل قائمة التشغيل هذه بالقياس المستخدم حينها.</translation>
     </message>
 </context>
 <context>

@@ -5793,6 +5793,10 @@ Projektor %2</translation>
         <source>%1° anticlockwise</source>
         <translation>%1° gegen den Uhrzeigersinn</translation>
     </message>
+    <message>
+        <source>If the projector was bumped instead, move its picture the other way.</source>
+        <translation>Wurde stattdessen der Projektor angestoßen, bewegen Sie sein Bild in die andere Richtung.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6758,6 +6762,18 @@ Projektor %2</translation>
     <message>
         <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
         <translation>Nichts hat sich bewegt: Ein Teil des Bildes liegt außerhalb der Reichweite des Projektors, dunkler als sein Schwarz oder heller als sein Weiß an dieser Stelle. Ein anderes Bild oder ein anderer Platz dafür hilft.</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>Ein Foto wird aufgenommen.</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>Langsam, da der Raum nicht als geräumt bestätigt ist: Nichts blitzt.</translation>
+    </message>
+    <message>
+        <source>It plays this playlist with the measurement that is in use by then.</source>
+        <translation>Sie spielt diese Playlist mit der Messung, die dann verwendet wird.</translation>
     </message>
 </context>
 <context>

@@ -5793,6 +5793,10 @@ proyector %2</translation>
         <source>%1° anticlockwise</source>
         <translation>%1° en sentido contrario a las agujas del reloj</translation>
     </message>
+    <message>
+        <source>If the projector was bumped instead, move its picture the other way.</source>
+        <translation>Si lo golpeado fue el proyector, mueva su imagen en sentido contrario.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6758,6 +6762,18 @@ proyector %2</translation>
     <message>
         <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
         <translation>Nada se ha movido: parte de la imagen está fuera del alcance del proyector, más oscura que su negro o más clara que su blanco en ese lugar. Ayuda otra imagen u otro lugar para ella.</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>Se está tomando una fotografía.</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>Despacio, pues la sala no consta como despejada: nada destella.</translation>
+    </message>
+    <message>
+        <source>It plays this playlist with the measurement that is in use by then.</source>
+        <translation>Reproduce esta lista con la medición que se use entonces.</translation>
     </message>
 </context>
 <context>

@@ -5793,6 +5793,10 @@ projecteur %2</translation>
         <source>%1° anticlockwise</source>
         <translation>%1° dans le sens inverse des aiguilles d’une montre</translation>
     </message>
+    <message>
+        <source>If the projector was bumped instead, move its picture the other way.</source>
+        <translation>Si c’est le projecteur qui a été heurté, déplacez son image dans l’autre sens.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6757,7 +6761,19 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
-        <translation>Rien n’a bougé : une partie de l’image est hors de portée du projecteur, plus sombre que son noir ou plus claire que son blanc à cet endroit. Une autre image, ou une autre place, aide.</translation>
+        <translation>Rien n’a bougé&#x202f;: une partie de l’image est hors de portée du projecteur, plus sombre que son noir ou plus claire que son blanc à cet endroit. Une autre image, ou une autre place, aide.</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>Une photo est en cours.</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>Lentement, car la salle n’est pas confirmée évacuée&#xa0;: rien ne clignote.</translation>
+    </message>
+    <message>
+        <source>It plays this playlist with the measurement that is in use by then.</source>
+        <translation>Il lit cette liste avec la mesure utilisée à ce moment-là.</translation>
     </message>
 </context>
 <context>

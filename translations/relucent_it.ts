@@ -5793,6 +5793,10 @@ proiettore %2</translation>
         <source>%1° anticlockwise</source>
         <translation>%1° in senso antiorario</translation>
     </message>
+    <message>
+        <source>If the projector was bumped instead, move its picture the other way.</source>
+        <translation>Se è stato urtato il proiettore, spostare la sua immagine nel senso opposto.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6758,6 +6762,18 @@ proiettore %2</translation>
     <message>
         <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
         <translation>Nulla si è mosso: parte dell’immagine è fuori dalla portata del proiettore, più scura del suo nero o più chiara del suo bianco in quel punto. Aiuta un’altra immagine o un’altra posizione.</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>Si sta scattando una fotografia.</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>Lentamente, perché la sala non è confermata sgombra: nulla lampeggia.</translation>
+    </message>
+    <message>
+        <source>It plays this playlist with the measurement that is in use by then.</source>
+        <translation>Riproduce questa playlist con la misura in uso in quel momento.</translation>
     </message>
 </context>
 <context>

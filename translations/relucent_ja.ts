@@ -5758,6 +5758,10 @@ projector %2</source>
         <source>%1° anticlockwise</source>
         <translation>反時計回りに %1°</translation>
     </message>
+    <message>
+        <source>If the projector was bumped instead, move its picture the other way.</source>
+        <translation>プロジェクターが動いた場合は、映像を逆方向に動かしてください。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6722,6 +6726,18 @@ projector %2</source>
     <message>
         <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
         <translation>何も動いていません。画像の一部がプロジェクターの届く範囲外です（その場所の黒より暗いか、白より明るい）。別の画像か別の位置にすると改善します。</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>写真を撮影しています。</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>退避が確認されていないため、点滅しないようゆっくり行います。</translation>
+    </message>
+    <message>
+        <source>It plays this playlist with the measurement that is in use by then.</source>
+        <translation>そのとき使われている測定で、このプレイリストを再生します。</translation>
     </message>
 </context>
 <context>

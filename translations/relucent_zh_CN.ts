@@ -5758,6 +5758,10 @@ projector %2</source>
         <source>%1° anticlockwise</source>
         <translation>逆时针 %1°</translation>
     </message>
+    <message>
+        <source>If the projector was bumped instead, move its picture the other way.</source>
+        <translation>如果被碰的是投影机，请把它的画面向相反方向移动。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6722,6 +6726,18 @@ projector %2</source>
     <message>
         <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
         <translation>没有东西移动：图片的一部分超出投影机的能力，比该处的黑更暗或比该处的白更亮。换一张图片或换个位置会有帮助。</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>正在拍照。</translation>
+    </message>
+    <message>
+        <source>Slowly, as the room is not said to be clear: nothing flashes.</source>
+        <translation>因未确认清场而缓慢进行：不会闪烁。</translation>
+    </message>
+    <message>
+        <source>It plays this playlist with the measurement that is in use by then.</source>
+        <translation>届时会以当时使用的测量播放此播放列表。</translation>
     </message>
 </context>
 <context>

@@ -128,6 +128,8 @@ void AcquirePage::resume() {
 }
 
 void AcquirePage::stopAndKeep() {
+  // Nothing is new yet: what there was stands, and may be more than what has been read of it.
+  if (isReading()) return finish();
   job_.stopAndKeep();
   if (isAsking()) answer(sentinels::Answer::keepAndStop);
   session_.giveUpCamera();

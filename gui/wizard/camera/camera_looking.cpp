@@ -95,7 +95,10 @@ void CameraPage::start() {
   if (needsCamera() || !session_.areDevicesFree()) return;
   // The checks go from black to white and back.
   waitsForConsent_ = !session_.mayMeasure();
-  if (waitsForConsent_) return tellStatus();
+  if (waitsForConsent_) {
+    forgetChecks();
+    return tellAll();
+  }
   goOn_ = false;
   isChecking_ = true;
   forgetChecks();

@@ -14,6 +14,8 @@ namespace relucent::gui {
 namespace {
 
 constexpr double leastTilt = 0.005;  // degrees that are written as more than none
+// Of each direction: both together are then near enough.
+constexpr double fits = NudgeSight::nearEnough / 1.4142;
 
 /// From the middle of the view to where the camera has to be turned; as long as the way, but to be seen.
 /// Finer than the photograph where that has few pixels, so that an arrow stays an arrow.
@@ -41,7 +43,7 @@ QImage arrowTo(QSize view, double x, double y) {
 }
 
 QString wayText(double pixels, const QString& forwards, const QString& backwards) {
-  if (std::abs(pixels) < NudgeSight::nearEnough) return NudgeDialog::tr("fits");
+  if (std::abs(pixels) < fits) return NudgeDialog::tr("fits");
   return (pixels > 0.0 ? forwards : backwards).arg(decimalText(std::abs(pixels), 1));
 }
 
@@ -52,8 +54,7 @@ QString tiltText(double degrees) {
 }
 
 QString adviceOn(const sentinels::Movement& moved) {
-  const bool across = std::abs(moved.x) >= NudgeSight::nearEnough,
-             along = std::abs(moved.y) >= NudgeSight::nearEnough;
+  const bool across = std::abs(moved.x) >= fits, along = std::abs(moved.y) >= fits;
   if (across && along) {
     if (moved.x > 0.0)
       return moved.y > 0.0 ? NudgeDialog::tr("Turn the camera to the right and down.")
@@ -168,9 +169,12 @@ void NudgeDialog::showVerdict() {
     verdict_->show(Remark::Kind::good, tr("The camera looks where it looked."),
                    tr("Fasten it, look once more, and close this window."));
   else if (isKnown)
-    verdict_->show(Remark::Kind::warning, adviceOn(moved),
-                   tr("The arrow shows where. If the projector was bumped instead, move its picture the "
-                      "other way."));
+    verdict_->show(
+        Remark::Kind::warning, adviceOn(moved),
+        std::hypot(moved.x, moved.y) < NudgeSight::nearEnough
+            ? tr("If the projector was bumped instead, move its picture the other way.")
+            : tr("The arrow shows where. If the projector was bumped instead, move its picture the "
+                 "other way."));
   else
     verdict_->show(
         Remark::Kind::watch, tr("What is seen is not the view that was measured."),

@@ -19,7 +19,11 @@ SteadyScroll::SteadyScroll(QWidget* parent) : QScrollArea(parent) {
 }
 
 void SteadyScroll::showEvent(QShowEvent* event) {
-  if (!event->spontaneous()) verticalScrollBar()->setValue(0);
+  if (!event->spontaneous()) {
+    verticalScrollBar()->setValue(0);
+    pointer_ = QCursor::pos();
+    focus_ = QApplication::focusWidget();
+  }
   QScrollArea::showEvent(event);
   look();
 }
@@ -73,13 +77,13 @@ void SteadyScroll::look() {
 const SteadyScroll::Seen* SteadyScroll::anchor() const {
   const auto isThere = [](const Seen& one) { return one.widget != nullptr && one.widget->isVisible(); };
   const QPoint pointer = viewport()->mapFromGlobal(QCursor::pos());
-  if (viewport()->rect().contains(pointer))
+  if (QCursor::pos() != pointer_ && viewport()->rect().contains(pointer))
     // Where that has gone, what came after it.
     for (const Seen& one : seen_)
       if (one.where.bottom() >= pointer.y() && isThere(one)) return &one;
   const QWidget* focus = QApplication::focusWidget();
   for (const Seen& one : seen_)
-    if (focus != nullptr && one.widget == focus && isThere(one)) return &one;
+    if (focus != nullptr && focus != focus_ && one.widget == focus && isThere(one)) return &one;
   if (verticalScrollBar()->value() == 0) return nullptr;
   const auto first =
       std::ranges::find_if(seen_, [&](const Seen& one) { return one.where.top() >= 0 && isThere(one); });

@@ -8,9 +8,9 @@
 namespace relucent::gui {
 
 /// A column that scrolls where the window is low. What comes and goes in it does not move what somebody
-/// points at, or else has the focus, or else sees first: it is scrolled along with that. At its top, and
-/// nobody in it, the column begins with what came. Each visit begins at the top, where what matters most
-/// stands.
+/// points at, or else has the focus, or else sees first: it is scrolled along with that. Each visit begins at
+/// the top, where what matters most stands, and with what comes there, until somebody moves the pointer or
+/// the focus.
 class SteadyScroll : public QScrollArea {
  public:
   explicit SteadyScroll(QWidget* parent = nullptr);
@@ -32,6 +32,8 @@ class SteadyScroll : public QScrollArea {
 
   std::vector<Seen> seen_;  // as the column stood last, from its top
   bool isHolding_ = false;
+  QPoint pointer_;  // where it was when the visit began
+  QPointer<QWidget> focus_;
 };
 
 }  // namespace relucent::gui

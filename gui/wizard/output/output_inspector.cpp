@@ -102,6 +102,11 @@ QString reasonOf(const OutputPage& page, double reachable) {
 
 void showProof(Remark& remark, const OutputPage& page) {
   const Proof* proof = page.proof().proof().get();
+  if (page.proof().work() == OutputProof::Work::photograph)
+    return remark.show(Remark::Kind::watch, OutputPage::tr("A photograph is being taken."),
+                       page.proof().mayFlash()
+                           ? QString()
+                           : OutputPage::tr("Slowly, as the room is not said to be clear: nothing flashes."));
   if (page.playsEarlier())
     return remark.show(
         Remark::Kind::watch, OutputPage::tr("Not to be proved yet"),
@@ -253,6 +258,7 @@ QString installedText(const OutputPage& page) {
   switch (page.installedShow()) {
     case InstalledShow::thisVenues:
       return OutputPage::tr("Installed. The show starts at the next log-in, without camera or wizard.") +
+             ' ' + OutputPage::tr("It plays this playlist with the measurement that is in use by then.") +
              ' ' + OutputPage::tr("To end it, hold Esc for two seconds at the projector's screen.");
     case InstalledShow::anotherVenues:
       return page.isInstallable()

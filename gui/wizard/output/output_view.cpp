@@ -31,7 +31,7 @@ namespace {
 constexpr double worstDeltaE = 12.0;  // of the map
 constexpr int foldedHeight = 260;     // of cards below each other: a picture that can be judged
 constexpr double chartSeconds = 60.0, sampleSeconds = 0.5;
-constexpr double legendRoom = 1.4;  // of the highest curve: the limit's words stand above all
+constexpr double legendRoom = 2.0;  // of the highest curve: the limit's words stand above all
 
 /// The cards say so too.
 QString whyNoShow(const OutputPage& page) {

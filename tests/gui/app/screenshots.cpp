@@ -76,7 +76,9 @@ class Photographs {
   void take(const QString& page) { take(page, wizard_.window()); }
   /// Of a dialog that is open, which is closed then.
   void takeDialog(const QString& page, const char* name) {
-    auto* dialog = wizard_.window().findChild<QDialog*>(name);
+    QDialog* dialog = nullptr;
+    until([&] { return (dialog = wizard_.window().findChild<QDialog*>(name)) != nullptr; });
+    if (dialog == nullptr) return;
     for (auto [look, theme] : {std::pair(Look::dark, "dark"), std::pair(Look::light, "light")}) {
       Theme::instance().apply(look);
       QTest::qWait(50);
@@ -338,7 +340,7 @@ void takeReturning(WizardWindow& wizard, Photographs& photographs) {
   wizard.wizard().go(3);
   acquire.secondary().front()->trigger();
   wizard.session().live().setLeastInterval(50);
-  until([&] { return acquire.trace().growth().levels.size() > 2; });
+  until([&] { return acquire.photographs() > 3 && acquire.trace().growth().levels.size() > 2; });
   acquire.secondary().front()->trigger();
   photographs.takeDialog("04-keep-earlier", "failure");
   acquire.stopAndKeep();

@@ -5,6 +5,7 @@
 #include <QCursor>
 #include <QLabel>
 #include <QPushButton>
+#include <QScreen>
 #include <QScrollBar>
 #include <QVBoxLayout>
 #include <QtTest>
@@ -31,6 +32,7 @@ class Column : public SteadyScroll {
     column->addStretch(1);
     setWidget(inside);
     resize(300, 160);
+    QCursor::setPos(QGuiApplication::primaryScreen()->geometry().bottomRight());  // nobody is in it
     show();
   }
   int placeOf(std::size_t button) const { return buttons[button]->mapToGlobal(QPoint(0, 0)).y(); }
@@ -99,6 +101,18 @@ class TestSteadyScroll : public QObject {
     const int focused = column.placeOf(2);
     column.setSeen(column.lines[0], true);
     QCOMPARE(column.placeOf(2), focused);
+  }
+
+  /// Wherever the pointer was left: what comes at the top of a page that is opened is seen.
+  void whoeverIsNotThereYetSeesTheTop() {
+    Column column;
+    QVERIFY(QTest::qWaitForWindowExposed(&column));
+    column.pointAt(*column.buttons[1]);
+    column.hide();
+    column.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&column));
+    column.setSeen(column.lines[0], true);
+    QCOMPARE(column.verticalScrollBar()->value(), 0);
   }
 
   /// Each visit begins at the top.

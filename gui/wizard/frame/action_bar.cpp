@@ -76,12 +76,8 @@ bool ActionBar::eventFilter(QObject* watched, QEvent* event) {
   return QFrame::eventFilter(watched, event);
 }
 
-int ActionBar::togetherWithin() {
-  return 2 * QGuiApplication::styleHints()->mouseDoubleClickInterval();
-}
-
 bool ActionBar::isMeantForAnother(const QPushButton& button, const QMouseEvent& press) {
-  const auto interval = static_cast<quint64>(togetherWithin());
+  const auto interval = static_cast<quint64>(QGuiApplication::styleHints()->mouseDoubleClickInterval());
   const QPoint where = press.globalPosition().toPoint();
   const bool isSecond =
       press_ && press.timestamp() - press_->when < interval && press_->where.contains(where);

@@ -25,8 +25,6 @@ class ActionBar : public QFrame {
 
  public:
   explicit ActionBar(Wizard& wizard, QWidget* parent = nullptr);
-  /// Milliseconds between two clicks that may be meant for the same: people are slower than double clicks.
-  static int togetherWithin();
   /// Triggers the primary command if it is enabled.
   void runPrimary();
   /// The primary command has the focus; false if it is not possible now.

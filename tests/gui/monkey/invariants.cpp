@@ -30,7 +30,8 @@ QString titleOf(const Seen& seen) {
 
 /// It is dark where a page says that it is.
 void lookAtLight(const Seen& seen, const FailingRoom& room, std::vector<Suspicion>& all) {
-  for (const char* words : {"Nothing is being projected.", "The output is closed. Nothing is projected from here."})
+  for (const char* words :
+       {"Nothing is being projected.", "The output is closed. Nothing is projected from here."})
     if (seen.says(words) && room.isBright())
       all.push_back({QString("the projector shines, and it says: ") + words, soonDark});
 }

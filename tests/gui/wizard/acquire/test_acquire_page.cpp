@@ -360,11 +360,11 @@ class TestAcquirePage : public QObject {
     page.secondary().front()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
     QVERIFY(page.stoppedAt() > 1 && session_->result(Stage::acquisition)->folder != whole);
-    QCOMPARE(page.secondary().front()->text(), AcquirePage::tr("Use the earlier one"));
+    QCOMPARE(page.primary()->text(), AcquirePage::tr("Use the earlier one"));
     // There is no way back to the new one: it is asked first.
     const std::filesystem::path newer = session_->result(Stage::acquisition)->folder;
     QSignalSpy asked(&page, &PageModel::failed);
-    page.secondary().front()->trigger();
+    page.primary()->trigger();
     QCOMPARE(asked.size(), 1);
     const auto question = asked.front().front().value<FailureReport>();
     QVERIFY(question.isQuestion && session_->result(Stage::acquisition)->folder == newer);

@@ -5,6 +5,7 @@
 #include <QGuiApplication>
 #include <QLabel>
 #include <QProgressBar>
+#include <QStyleHints>
 #include <QtTest>
 
 using namespace relucent;
@@ -121,7 +122,7 @@ class TestActionBar : public QObject {
     QTest::addColumn<int>("clicks");
     QTest::addColumn<int>("apart");
     QTest::addColumn<QStringList>("done");
-    const int interval = ActionBar::togetherWithin();
+    const int interval = QGuiApplication::styleHints()->mouseDoubleClickInterval();
     QTest::newRow("a click") << 1 << 0 << QStringList{"Open"};
     QTest::newRow("a double click") << 2 << interval / 2 << QStringList{"Open"};
     QTest::newRow("impatience") << 5 << interval - 1 << QStringList{"Open"};
@@ -133,7 +134,7 @@ class TestActionBar : public QObject {
     QFETCH(int, apart);
     QFETCH(QStringList, done);
     for (int i = 0; i < clicks; ++i) {
-      const bool isDouble = i % 2 == 1 && apart < ActionBar::togetherWithin();
+      const bool isDouble = i % 2 == 1 && apart < QGuiApplication::styleHints()->mouseDoubleClickInterval();
       click("primary", static_cast<quint64>(apart),
             isDouble ? QEvent::MouseButtonDblClick : QEvent::MouseButtonPress);
     }

@@ -116,7 +116,7 @@ class TestLatency : public QObject {
     // A picture appears after `delay` to `delay` + 1 frames, as it happens to be sent late or early in one.
     QVERIFY(latency.frames == delay || latency.frames == delay + 1);
     QVERIFY(mentions(english(messageOf(latency.verdicts.front())),
-                     "A picture appears " + std::to_string(latency.frames) + " frame"));
+                     "A picture takes " + std::to_string(std::lround(1e3 * latency.seconds)) + " ms"));
 
     // Whoever waits so long sees nothing older, whenever it begins.
     auto patient = delayed(std::make_unique<StageProjector>(stage), latency.seconds, stage.wait());

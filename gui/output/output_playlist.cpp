@@ -97,10 +97,10 @@ void OutputPlaylist::save() const {
   savePlaylist(file(), kept);
 }
 
-QString OutputPlaylist::nameOf(const PlaylistItem& item) {
-  if (isDemonstration(item.path)) return tr("Demonstration picture");
-  if (addressOf(item.path).kind != ContentAddress::Kind::file) return shownPath(item.path);
-  return QFileInfo(item.path).fileName();
+QString OutputPlaylist::nameOf(const QString& path) {
+  if (isDemonstration(path)) return tr("Demonstration picture");
+  if (addressOf(path).kind != ContentAddress::Kind::file) return shownPath(path);
+  return QFileInfo(path).fileName();
 }
 
 bool OutputPlaylist::isStill(const PlaylistItem& item) {

@@ -41,8 +41,8 @@ class OutputPlaylist : public QObject {
   /// Throws: Error{disk}.
   void save() const;
 
-  /// The file's name, or what else an item is, for people.
-  static QString nameOf(const PlaylistItem& item);
+  /// The name of an item's file, or what else it is, for people.
+  static QString nameOf(const QString& path);
   /// A picture that stands, which can be photographed and compared.
   static bool isStill(const PlaylistItem& item);
 

@@ -231,8 +231,8 @@ void AcquirePage::updateCommands() {
 PageCommand* AcquirePage::primary() const {
   if (isCountingDown()) return startNow_;
   if (isDoubtful()) return measureAnew_;
-  if (isDone() && stoppedAt() > 0 && !session_.foundChange() && hasBetterBefore()) return return_;
-  if (isUseless()) return hasBetterBefore() ? return_ : measureAnew_;
+  if (isBestGoneBackFrom()) return return_;
+  if (isUseless()) return measureAnew_;
   if (PageCommand* leadsOn = afterChange()) return leadsOn;
   return isMeasuring() || isDone() ? next_ : start_;
 }
@@ -242,8 +242,8 @@ std::vector<PageCommand*> AcquirePage::secondary() const {
   if (isCountingDown()) return {stay_};
   // What was measured again may have come to less than what was there before.
   if (isDoubtful()) return hasBetterBefore() ? Commands{return_, next_} : Commands{next_};
-  if (isUseless() || primary() == return_)
-    return hasBetterBefore() ? Commands{measureAnew_, next_} : Commands{next_};
+  if (isBestGoneBackFrom()) return {measureAnew_, next_};
+  if (isUseless()) return {next_};
   if (const PageCommand* leadsOn = afterChange())
     return {leadsOn == measureAnew_ ? goOnMeasuring_ : measureAnew_, next_};
   if (isDone()) return hasBetterBefore() ? Commands{return_, measureAnew_} : Commands{measureAnew_};
@@ -317,6 +317,12 @@ bool AcquirePage::isDoubtful() const {
 bool AcquirePage::isUseless() const {
   const bool isPoor = stoppedAt() > 0 && !session_.foundChange() && session_.poorQuality();
   return isDone() && (isUnreadable() || isPoor);
+}
+
+/// There was a measurement before which is more than this one.
+bool AcquirePage::isBestGoneBackFrom() const {
+  const bool isCoarse = stoppedAt() > 0 && !session_.foundChange();
+  return isDone() && (isUnreadable() || isCoarse) && hasBetterBefore();
 }
 
 bool AcquirePage::isUnreadable() const {

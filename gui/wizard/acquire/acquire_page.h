@@ -194,6 +194,7 @@ class AcquirePage : public DevicePage {
   /// It is whole, and yet nothing would be corrected by it.
   bool isDoubtful() const;
   bool isUseless() const;
+  bool isBestGoneBackFrom() const;
 
   bool hasBetterBefore() const;
   Banner staleBanner() const;

@@ -30,9 +30,7 @@ QString figures(const std::vector<pipeline::PictureError>& views,
 }
 
 QString nameOf(const QString& picture) {
-  PlaylistItem item;
-  item.path = picture;
-  return isolated(OutputPlaylist::nameOf(item));
+  return isolated(OutputPlaylist::nameOf(picture));
 }
 
 QString dateText(const std::string& iso) {

@@ -130,11 +130,8 @@ void showProof(Remark& remark, const OutputPage& page) {
       (drift == nullptr ? OutputPage::tr("Photographed %1.").arg(when)
                         : OutputPage::tr("Photographed %1, before the last check for drift.").arg(when)) +
       '\n';
-  if (!proof->picture.isEmpty()) {
-    PlaylistItem shown;
-    shown.path = proof->picture;
-    meaning += OutputPage::tr("Picture: %1").arg(isolated(OutputPlaylist::nameOf(shown))) + '\n';
-  }
+  if (!proof->picture.isEmpty())
+    meaning += OutputPage::tr("Picture: %1").arg(isolated(OutputPlaylist::nameOf(proof->picture))) + '\n';
   meaning += errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
              errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
              OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));

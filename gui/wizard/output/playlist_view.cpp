@@ -75,7 +75,7 @@ void PlaylistView::refresh() {
   qsizetype playing = page_.showsChart() ? -1 : page_.projection().playing();
   const std::vector<Playlist::Skipped> skipped = page_.projection().skipped();
   for (int i = 0; i < count(); ++i) {
-    QString name = OutputPlaylist::nameOf(items[i]);
+    QString name = OutputPlaylist::nameOf(items[i].path);
     QListWidgetItem* entry = item(i);
     const auto wrong = std::ranges::find(skipped, i, &Playlist::Skipped::index);
     const bool isSkipped = wrong != skipped.end();

@@ -59,7 +59,7 @@ class TestOutputPlaylist : public QObject {
     again.open(folder.path(), {});
     QCOMPARE(names(again), QStringList{folder.filePath("demonstration.png")});
     QVERIFY(QFile::exists(folder.filePath("demonstration.png")));
-    QCOMPARE(OutputPlaylist::nameOf(again.settings().items.front()),
+    QCOMPARE(OutputPlaylist::nameOf(again.settings().items.front().path),
              OutputPlaylist::nameOf({defaultPicture()}));
   }
 

@@ -148,6 +148,7 @@ class CastFrames::Impl {
   }
 
   bool isFlowing() const { return isFlowing_; }
+  bool isFirstDue() const { return isFirstDue_; }
 
  private:
   template <typename Work>
@@ -175,7 +176,7 @@ class CastFrames::Impl {
     if (spa_format_video_raw_parse(format, &info_) < 0 || info_.size.width < 1 || info_.size.height < 1 ||
         info_.size.width > mostSide || info_.size.height > mostSide)
       throw castUnusable();
-    isAgreed_ = true;
+    isAgreed_ = isFirstDue_ = true;
     std::array<std::uint8_t, 1024> memory{};
     spa_pod_builder builder = SPA_POD_BUILDER_INIT(memory.data(), static_cast<std::uint32_t>(memory.size()));
     std::array<const spa_pod*, 3> params{wantedBuffers(builder), wantedCrop(builder), wantedHeader(builder)};
@@ -190,6 +191,7 @@ class CastFrames::Impl {
       if (isNewer) newest = buffer;
     }
     if (newest == nullptr) return;
+    isFirstDue_ = false;
     noting([&] {
       if (isAgreed_) newest_ = pictureIn(*newest->buffer, info_);
     });
@@ -219,7 +221,7 @@ class CastFrames::Impl {
   spa_hook coreHook_{}, streamHook_{};
   Stream stream_;
   spa_video_info_raw info_{};
-  bool isAgreed_ = false, isFlowing_ = false;
+  bool isAgreed_ = false, isFlowing_ = false, isFirstDue_ = true;
   QImage newest_;
   std::optional<Error> failure_;
 };
@@ -257,6 +259,10 @@ QImage CastFrames::next(std::chrono::milliseconds most) {
 
 bool CastFrames::isFlowing() const {
   return impl_->isFlowing();
+}
+
+bool CastFrames::isFirstDue() const {
+  return impl_->isFirstDue();
 }
 
 QString castLibraryVersion() {

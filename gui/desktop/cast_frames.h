@@ -23,6 +23,8 @@ class CastFrames {
   QImage next(std::chrono::milliseconds most);
   /// Whether both sides are joined, so that pictures would come.
   bool isFlowing() const;
+  /// Whether none has come yet of the size and order last agreed on.
+  bool isFirstDue() const;
 
  private:
   class Impl;

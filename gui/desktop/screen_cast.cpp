@@ -39,10 +39,11 @@ class ScreenCast::Impl {
       QImage image = frames_->next(tick);
       if (!image.isNull()) {
         hasPlayed_ = true;
-        return {std::move(image), Clock::now()};
+        settled_ = Clock::now();
+        return {std::move(image), settled_};
       }
       if (session_.isClosed()) throw castEnded();
-      if (!hasPlayed_) insist();
+      insist();
     }
   }
 
@@ -50,22 +51,28 @@ class ScreenCast::Impl {
   void connect() {
     frames_.reset();
     frames_ = std::make_unique<CastFrames>(copyOf(session_.remote()), session_.node());
-    connected_ = Clock::now();
+    settled_ = Clock::now();
+    hasPlayed_ = false;
   }
 
-  /// A desktop that stands sends one picture when both sides are joined, which can be too early for this one.
+  /// A desktop that stands sends one picture when both sides are joined, and one when the size changes, which
+  /// PipeWire loses where this side is not ready yet.
   void insist() {
-    const auto waited = Clock::now() - connected_;
-    if (!frames_->isFlowing() && waited > wish_.connection) throw castSilent(wish_.connection);
-    if (frames_->isFlowing() && waited > wish_.first) connect();
+    const auto now = Clock::now();
+    if (!frames_->isFirstDue()) settled_ = now;
+    const auto waited = now - settled_;
+    if (frames_->isFlowing() && waited > wish_.first)
+      connect();
+    else if (!frames_->isFlowing() && !hasPlayed_ && waited > wish_.connection)
+      throw castSilent(wish_.connection);
   }
 
   const ScreenCastWish wish_;
   const ScreenCastVisitor visitor_;
   ScreenCastSession session_;
   std::unique_ptr<CastFrames> frames_;
-  Clock::time_point connected_;
-  bool hasPlayed_ = false;
+  Clock::time_point settled_;  // when nothing was due for the last time
+  bool hasPlayed_ = false;     // since both sides were last joined
 };
 
 ScreenCast::ScreenCast(const ScreenCastWish& wish, const ScreenCastVisitor& visitor)

@@ -138,12 +138,12 @@ class PictureNode::Impl {
     return node;
   }
 
-  void show(const QImage& picture, std::optional<Order> order) {
+  void show(const QImage& picture, std::optional<Order> order, bool isHeard = true) {
     pw_thread_loop_lock(loop_);
     const bool isOther = picture.size() != picture_.size() || (order && *order != order_);
     picture_ = picture;
     if (order) order_ = *order;
-    isDue_ = true;
+    isDue_ = isHeard;
     if (isOther) {
       isAllotted_ = false;
       std::array<std::uint8_t, 1024> memory{};
@@ -255,6 +255,10 @@ void PictureNode::show(const QImage& picture) {
 
 void PictureNode::show(const QImage& picture, Order order) {
   impl_->show(picture, order);
+}
+
+void PictureNode::showUnheard(const QImage& picture) {
+  impl_->show(picture, std::nullopt, false);
 }
 
 void PictureNode::tell(Lie lie) {

@@ -28,6 +28,8 @@ class PictureNode {
   /// Of another size: the format is agreed on anew.
   void show(const QImage& picture);
   void show(const QImage& picture, Order order);
+  /// As a change of size whose picture was sent before the other side was ready.
+  void showUnheard(const QImage& picture);
   void tell(Lie lie);
 
  private:

@@ -111,6 +111,16 @@ class TestLiveCast : public QObject {
     QCOMPARE(desktop_->questions, 1);
   }
 
+  void anUnheardFirstPictureOfAnotherSizeIsAskedForAgain() {
+    give();
+    Played played(size_);
+    QTRY_VERIFY_WITH_TIMEOUT(played.shows(picture_), patience);
+    node_->showUnheard(noise(2 * size_, 3));
+    QTRY_COMPARE_WITH_TIMEOUT(played.state().size, 2 * size_, patience);
+    QCOMPARE(played.state().losses, 0);
+    QCOMPARE(desktop_->questions, 1);
+  }
+
   void sizeAndOrderMayChange() {
     give();
     Played played(size_);

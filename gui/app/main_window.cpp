@@ -99,6 +99,7 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
     hasWorked_ = false;
     focusFirst(stages_);
   });
+  connect(rail_, &StepRail::lockedPressed, this, [this](const QString& why) { strip_->say(why); });
   connect(rail_, &StepRail::currentPressed, this, [this] { focusFirst(stages_); });
   connect(qApp, &QApplication::focusChanged, this, &MainWindow::followFocus);
   new QuietWheel(this);

@@ -15,12 +15,17 @@ QString defaultPicture() {
   return ":/pictures/demo.png";
 }
 
+std::filesystem::path pathOfPicture(const QString& picture, const std::filesystem::path& folder) {
+  return picture.startsWith(':') ? folder / "Demonstration picture.png"
+                                 : std::filesystem::path(picture.toStdString());
+}
+
 std::filesystem::path pictureFile(const QString& picture, const std::filesystem::path& folder) {
-  if (!picture.startsWith(':')) return picture.toStdString();
+  std::filesystem::path file = pathOfPicture(picture, folder);
+  if (!picture.startsWith(':')) return file;
   QFile resource(picture);
   require(resource.open(QIODevice::ReadOnly), "the program's own picture is missing");
   createFolder(folder);
-  std::filesystem::path file = folder / "Demonstration picture.png";
   writeFileAtomically(file, resource.readAll().toStdString());
   return file;
 }

@@ -106,6 +106,7 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
   }
   if (settings_.watch)
     beginWatch(watch ? std::move(watch) : watchSourceOf(settings_.calibration, *settings_.watch));
+  noteUse();
   openOrWait();
   listen();
 }
@@ -255,6 +256,11 @@ void Show::start() {
   QTimer::singleShot(clock_.pause(forgivenAfter), player_.get(), [this] { failures_ = 0; });
 }
 
+/// For wizards of this computer. Where another show of this venue plays, it is noted by that one.
+void Show::noteUse() {
+  if (!use_) use_ = VenueUse::take(settings_.calibration, VenueUse::Way::show);
+}
+
 bool Show::isTime() const {
   return !settings_.hours || settings_.hours->contain(clock_.wall().time());
 }
@@ -282,6 +288,7 @@ void Show::look() {
       for (const auto& window : windows_) window->shine();
   }
   slept_ = slept;
+  noteUse();
   wakeDisplays();
   listen();
   if (nights_) tend();

@@ -20,6 +20,7 @@
 #include "output/show_settings.h"
 #include "output/show_streams.h"
 #include "output/show_watch.h"
+#include "output/venue_use.h"
 #include "relucent/base/message.h"
 #include "remote/remote_control.h"
 #include "remote/status_server.h"
@@ -77,6 +78,7 @@ class Show : public QObject, private RemoteActions {
   void play();
   void rest();
   void wakeDisplays();
+  void noteUse();
   bool isTime() const;
   void tryAgain(const relucent::Message& sentence);
   void writeHealth(ShowState state);
@@ -137,6 +139,7 @@ class Show : public QObject, private RemoteActions {
   std::unique_ptr<Player> player_;
   QString renderer_;
   HeldKey escape_{Qt::Key_Escape, endsAfter};
+  std::optional<VenueUse> use_;
   QTimer health_, again_, streamsLooked_;
   int failures_ = 0;
   std::vector<Message> toldSkipped_;  // that stand in the log

@@ -154,6 +154,8 @@ void AcquirePage::askToReturn() {
   question.safe = tr("The earlier measurement, and all that followed from it.");
   question.resume = stayWithNew_;
   question.goOn = returnNow_;
+  // Of what shows nothing better than uncorrected pictures nobody is advised to keep it.
+  if (isResult && isUseless()) std::swap(question.resume, question.goOn);
   question.isQuestion = true;
   question.reason = returning_.get();
   Q_EMIT failed(question);

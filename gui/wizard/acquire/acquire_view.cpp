@@ -140,7 +140,7 @@ QString timeText(const AcquirePage& model) {
                                   : AcquirePage::tr("Measuring");
   const bool isShort = isUnderAMinute(*seconds);
   const QString left = text(expectedDuration(*seconds));
-  if (model.isReading())
+  if (model.isReading() && !isPaused)
     return isShort ? AcquirePage::tr("Reading, under a minute left")
                    : AcquirePage::tr("Reading, about %1 left").arg(left);
   if (isPaused)

@@ -23,6 +23,9 @@ void DevicePage::showCamera(std::size_t camera) {
 }
 
 std::optional<Banner> DevicePage::overTheShow() const {
+  if (session_.isShownElsewhere() && !session_.isSimulated())
+    return Banner{Banner::Kind::amber, tr("Another program plays a show of this venue"),
+                  tr("End it before light is measured: its pictures may come between the patterns.")};
   if (!session_.underWay().show || session_.isSimulated() || !session_.areDevicesFree()) return std::nullopt;
   return Banner{Banner::Kind::information, tr("A show is playing"),
                 tr("What is begun here shines in its place. The show is seen again once it has ended.")};

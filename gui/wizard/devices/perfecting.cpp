@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/devices/perfecting.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "output/default_picture.h"
@@ -10,7 +11,6 @@ namespace relucent::gui {
 namespace {
 
 namespace fs = std::filesystem;
-using Known = std::optional<pipeline::PerfectedPicture>;
 
 /// Which one is kept for a picture. Empty: the picture cannot be read.
 std::string keyOf(const std::string& shownFrom, const QString& picture, const Canvas& canvas) {
@@ -48,7 +48,7 @@ Perfecting::Perfecting(Session& session, const StepName& step, QObject* parent)
             Q_EMIT changed();
           },
           [this](const Failure&) {  // the page tells of pictures that cannot be read
-            known_.reset();
+            known_ = {};
             Q_EMIT changed();
           }) {
   connect(&session_, &Session::opened, this, [this] {
@@ -56,7 +56,7 @@ Perfecting::Perfecting(Session& session, const StepName& step, QObject* parent)
     found_ = nullptr;
     picture_.clear();
     outcome_.reset();
-    known_.reset();
+    known_ = {};
     Q_EMIT changed();
   });
   connect(&session_, &Session::stepsChanged, this, &Perfecting::look);
@@ -77,7 +77,14 @@ void Perfecting::look() {
   looking_.ask([folder = session_.path(), shownFrom = session_.shownFrom(), picture = picture_,
                 canvas = canvas_]() -> Known {
     const std::string key = keyOf(shownFrom, picture, canvas);
-    return key.empty() ? Known() : pipeline::findPerfected(folder, key);
+    if (key.empty()) return {};
+    Known known{pipeline::findPerfected(folder, key)};
+    if (known.picture) return known;
+    const std::string file = pathOfPicture(picture, pipeline::perfectedFolder(folder)).string();
+    known.wasBefore =
+        std::ranges::any_of(pipeline::allPerfected(folder),
+                            [&](const pipeline::PerfectedPicture& kept) { return kept.picture == file; });
+    return known;
   });
 }
 
@@ -115,14 +122,14 @@ void Perfecting::start() {
 }
 
 void Perfecting::forget() {
-  if (!known_) return;
+  if (!known_.picture) return;
   try {
-    removePerfected(*known_);
+    removePerfected(*known_.picture);
   } catch (...) {
     Q_EMIT failed(failureOf(std::current_exception()));
     return;
   }
-  known_.reset();
+  known_ = {};
   outcome_.reset();
   Q_EMIT changed();
   Q_EMIT ended(true);

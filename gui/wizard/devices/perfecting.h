@@ -34,7 +34,9 @@ class Perfecting : public QObject {
   int photographs() const { return photographs_; }
 
   /// How the picture was corrected; none: it is shown as T has it.
-  const std::optional<pipeline::PerfectedPicture>& known() const { return known_; }
+  const std::optional<pipeline::PerfectedPicture>& known() const { return known_.picture; }
+  /// It was corrected for an earlier measurement, or placed otherwise; that is kept, and not shown now.
+  bool wasBefore() const { return known_.wasBefore; }
   /// What became of the picture that was tried last; none: none was tried since the calibration was opened.
   const std::optional<pipeline::PerfectedImage>& outcome() const { return outcome_; }
   /// Which one that was, a file or resource, and whether it is the one that the page shows.
@@ -61,7 +63,10 @@ class Perfecting : public QObject {
 
  private:
   struct Found;
-  std::string keyOfPicture() const;
+  struct Known {
+    std::optional<pipeline::PerfectedPicture> picture;
+    bool wasBefore = false;
+  };
   void look();
   void finished();
 
@@ -71,11 +76,11 @@ class Perfecting : public QObject {
   Job job_;
   QString picture_, tried_;
   Canvas canvas_;
-  std::optional<pipeline::PerfectedPicture> known_;
+  Known known_;
   std::optional<pipeline::PerfectedImage> outcome_;
   int photographs_ = 0;
   std::shared_ptr<Found> found_;  // by the job
-  Latest<std::optional<pipeline::PerfectedPicture>> looking_;
+  Latest<Known> looking_;
 };
 
 }  // namespace relucent::gui

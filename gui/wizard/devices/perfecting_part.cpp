@@ -98,6 +98,11 @@ void showState(Remark& remark, const Perfecting& perfecting) {
                            ? Remark::Kind::warning
                            : Remark::Kind::good,
                        Perfecting::tr("The picture is as it was"), vain);
+  if (perfecting.wasBefore())
+    return remark.show(Remark::Kind::watch, Perfecting::tr("Not perfected since it changed"),
+                       withElsewhere(Perfecting::tr(
+                           "It was perfected for an earlier measurement, or placed otherwise. That is kept, "
+                           "and is of no use now: perfect it once more.")));
   remark.show(Remark::Kind::watch, Perfecting::tr("Not perfected"),
               withElsewhere(Perfecting::tr(
                   "A picture that stands can be corrected by photographs of itself, some eight of them. It "

@@ -95,6 +95,13 @@ QSize StepButton::minimumSizeHint() const {
           sizeHint().height()};
 }
 
+/// What is disabled gets no press of its own.
+bool StepButton::event(QEvent* event) {
+  if (!locked_ || event->type() != QEvent::MouseButtonPress) return QAbstractButton::event(event);
+  Q_EMIT lockedPressed();
+  return true;
+}
+
 void StepButton::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) return click();
   QAbstractButton::keyPressEvent(event);
@@ -220,6 +227,8 @@ StepRail::StepRail(Wizard& wizard, Session& session, QWidget* parent)
       if (i == wizard_.current()) return Q_EMIT currentPressed();
       wizard_.go(i);
     });
+    connect(step, &StepButton::lockedPressed, this,
+            [this, step] { Q_EMIT lockedPressed(step->accessibleDescription()); });
     steps_.push_back(step);
     rows->addWidget(step);
   }

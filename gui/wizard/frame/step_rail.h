@@ -25,7 +25,12 @@ class StepButton : public QAbstractButton {
   /// Its name is shown in full; the result below may end in an ellipsis.
   QSize minimumSizeHint() const override;
 
+ Q_SIGNALS:
+  /// By mouse, while it cannot be opened.
+  void lockedPressed();
+
  protected:
+  bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
@@ -50,6 +55,8 @@ class StepRail : public QWidget {
  Q_SIGNALS:
   /// The step that is open anyhow.
   void currentPressed();
+  /// One that cannot be opened yet. `why`: a sentence.
+  void lockedPressed(const QString& why);
 
  private:
   void refresh();

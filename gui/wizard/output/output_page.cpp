@@ -167,6 +167,8 @@ QString OutputPage::whatIsProjected() const {
     return tr("The output is closed. Patterns to be photographed are projected.");
   if (session_.isProjecting())
     return tr("The output is closed. The devices are in use at %1.").arg(session_.devicesUserName());
+  if (session_.isShownElsewhere())
+    return tr("The output is closed here. Another program plays a show of this venue.");
   return tr("The output is closed. Nothing is projected from here.");
 }
 

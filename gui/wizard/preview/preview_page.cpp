@@ -329,11 +329,15 @@ std::optional<Banner> PreviewPage::banner() const {
                   tr("It still works, and what you see follows from it, until it is measured again.")};
   if (session_.progress(Stage::content) != calibration::StageProgress::stale)
     return onMeasurement(session_, goOnMeasuring_);
-  const bool isMeasuredSince =
-      session_.result(Stage::acquisition)->stored > session_.result(Stage::content)->stored;
+  const auto isSince = [&](Stage stage) {
+    return session_.result(stage) && session_.result(stage)->stored > session_.result(Stage::content)->stored;
+  };
+  // Neither: somebody went back to what was measured or chosen before.
   return Banner{Banner::Kind::amber,
-                isMeasuredSince ? tr("It has been measured again since the content was placed")
-                                : tr("The threshold has been changed since the content was placed"),
+                isSince(Stage::acquisition) ? tr("It has been measured again since the content was placed")
+                : isSince(Stage::threshold)
+                    ? tr("The threshold has been changed since the content was placed")
+                    : tr("The content was placed on another measurement or threshold"),
                 tr("What you see here is predicted anew. Going to the output keeps it.")};
 }
 

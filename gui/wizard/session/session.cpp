@@ -60,6 +60,9 @@ Session::Session(fs::path cache, QObject* parent)
             readFailure_ = failure;
             Q_EMIT acquisitionChanged();
           }) {
+  shows_.setInterval(2'000);
+  connect(&shows_, &QTimer::timeout, this, &Session::lookForShow);
+  shows_.start();
   silence_.setInterval(250);
   connect(&silence_, &QTimer::timeout, this, &Session::listenForCamera);
 }
@@ -71,6 +74,7 @@ QString Session::name() const {
 void Session::open(const fs::path& path) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+  hold(path);
   surprises_ = pipeline::loadSurprises(path);
   keepSurprises(path);
   adopt(std::move(folder));
@@ -79,6 +83,7 @@ void Session::open(const fs::path& path) {
 void Session::begin(const fs::path& path, const pipeline::CalibrateSettings& settings,
                     const venue::SurpriseSettings& surprises) {
   calibration::CalibrationFolder folder = pipeline::beginCalibration(path, settings);
+  hold(path);
   surprises_ = surprises.kinds.empty() ? nullptr : std::make_shared<venue::Surprises>(surprises);
   if (surprises_) pipeline::saveSurprises(*surprises_, path);
   keepSurprises(path);
@@ -96,6 +101,24 @@ void Session::keepSurprises(const fs::path& path) {
       // A disk that is full is told of by what measures.
     }
   });
+}
+
+void Session::hold(const fs::path& venue) {
+  std::error_code ignored;
+  if (isOpen() && fs::equivalent(venue, path_, ignored)) return;
+  std::optional<VenueUse> use = VenueUse::take(venue, VenueUse::Way::wizard);
+  if (!use)
+    throw Error(ErrorKind::input,
+                RELUCENT_MESSAGE("session.open-in-another-window",
+                                 "this venue is open in another window of Relucent"),
+                RELUCENT_MESSAGE("session.close-other-window", "go on there, or close it there first"),
+                venue.string());
+  use_ = std::move(use);
+}
+
+void Session::lookForShow() {
+  const bool isShown = isOpen() && VenueUse::isTaken(path_, VenueUse::Way::show);
+  if (std::exchange(isShownElsewhere_, isShown) != isShown) Q_EMIT devicesChanged();
 }
 
 void Session::putRight() {
@@ -118,6 +141,7 @@ void Session::adopt(calibration::CalibrationFolder given) {
   roomLight_.reset();
   slowDown();
   makeDevices();
+  isShownElsewhere_ = VenueUse::isTaken(path_, VenueUse::Way::show);
   Q_EMIT opened();
   Q_EMIT stepsChanged();
   Q_EMIT acquisitionChanged();
@@ -210,6 +234,8 @@ void Session::changeScreen(const pipeline::ScreenRigSettings& screen, std::size_
 
 void Session::close() {
   path_.clear();
+  use_.reset();
+  lookForShow();
   devices_ = nullptr;
   acquisition_ = nullptr;
   acquired_.clear();

@@ -16,6 +16,7 @@
 #include "jobs/latest.h"
 #include "jobs/live_rig.h"
 #include "jobs/patient_camera.h"
+#include "output/venue_use.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
@@ -321,6 +322,8 @@ class Session : public QObject {
   bool isMeasuring() const { return devicesUser_ && deviceWork_ == DeviceWork::measurement; }
   /// A show plays on the projectors' screens.
   void setShowing(bool showing);
+  /// `relucent show` plays this venue beside the wizard, on this computer.
+  bool isShownElsewhere() const { return isShownElsewhere_; }
   /// What another calibration, or the end of the program, would end: not without a question.
   UnderWay underWay() const { return {isMeasuring(), isShowing_}; }
   /// Why a step can keep no settings now, in a sentence: work of another step has the calibration. Empty: it
@@ -360,6 +363,9 @@ class Session : public QObject {
   void agreeToTyped(std::vector<std::string> commands) const;
   /// As change(), with the devices closed meanwhile and opened again.
   void changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write);
+  /// Throws: Error{input} if another wizard has it.
+  void hold(const std::filesystem::path& venue);
+  void lookForShow();
   void adopt(calibration::CalibrationFolder given);
   void slowDown();
   void consentChanged();
@@ -370,6 +376,7 @@ class Session : public QObject {
   std::unique_ptr<devices::ScreenProjector> openScreen(const pipeline::ScreenRigSettings& settings);
 
   std::filesystem::path path_, cache_;
+  std::optional<VenueUse> use_;  // of the one that is open
   pipeline::CalibrateSettings settings_;
   pipeline::KeptPhotographs keptPhotographs_ = pipeline::KeptPhotographs::everything;
   bool photographsRemoved_ = false;
@@ -388,13 +395,14 @@ class Session : public QObject {
   std::optional<StepName> devicesUser_;
   DeviceWork deviceWork_ = DeviceWork::brief;
   std::function<void()> whenUnclear_;  // of who uses them; empty: nothing of that flashes
-  bool isShowing_ = false;
+  bool isShowing_ = false, isShownElsewhere_ = false;
   int flashLimit_ = 0;
   bool roomClear_ = false;
   std::set<std::string> missingScreens_;  // by connector
   std::optional<std::size_t> silentCamera_;
   QString cameraFailure_;
   QTimer silence_;  // runs while somebody uses the devices
+  QTimer shows_;    // other programs' are looked for
   std::optional<RoomLight> roomLight_;
   CheckPatience patience_;
   struct Read {

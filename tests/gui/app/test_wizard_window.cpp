@@ -30,6 +30,7 @@
 #include "wizard/cluster/cluster_page.h"
 #include "wizard/devices/nudge_dialog.h"
 #include "wizard/frame/failure_dialog.h"
+#include "wizard/frame/step_rail.h"
 #include "wizard/linearize/linearize_page.h"
 #include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
@@ -242,6 +243,16 @@ class TestWizardWindow : public QObject {
     for (std::size_t i = 1; i < wizard_->wizard().count(); ++i) QVERIFY(wizard_->wizard().isLocked(i));
     press(QKeySequence("Alt+3"));
     QCOMPARE(page(), std::size_t{0});
+  }
+
+  /// A press that opens nothing says why.
+  void aLockedStepSaysWhatOpensIt() {
+    auto* step = find<StepButton>("step-5");
+    QVERIFY(!step->isEnabled());
+    QTest::mouseClick(step, Qt::LeftButton);
+    QCOMPARE(page(), std::size_t{0});
+    QCOMPARE(find<QLabel>("strip-saved")->accessibleName(), step->accessibleDescription());
+    QVERIFY(!step->accessibleDescription().isEmpty());
   }
 
   void theGuideIsSearched() {

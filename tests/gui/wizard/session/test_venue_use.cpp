@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Who uses a venue, told among the programs of one computer.
+#include "output/venue_use.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <QDir>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <filesystem>
+
+#include "gui/wizard/simulated_session.h"
+#include "relucent/base/error.h"
+
+using namespace relucent;
+using namespace relucent::gui;
+namespace fs = std::filesystem;
+
+using Way = VenueUse::Way;
+
+class TestVenueUse : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir folder_;
+  fs::path venue_;
+
+ private slots:
+  void initTestCase() {
+    QStandardPaths::setTestModeEnabled(true);
+    venue_ = folder_.filePath("venue").toStdString();
+    fs::create_directory(venue_);
+  }
+
+  void oneUsesItAtATime() {
+    QVERIFY(!VenueUse::isTaken(venue_, Way::wizard));
+    {
+      const auto first = VenueUse::take(venue_, Way::wizard);
+      QVERIFY(first && !VenueUse::take(venue_, Way::wizard));
+      QVERIFY(VenueUse::isTaken(venue_, Way::wizard) && VenueUse::isTaken(venue_, Way::wizard));
+    }
+    QVERIFY(!VenueUse::isTaken(venue_, Way::wizard));
+    QVERIFY(VenueUse::take(venue_, Way::wizard).has_value());
+  }
+
+  void waysAndVenuesAreApart() {
+    const auto wizard = VenueUse::take(venue_, Way::wizard);
+    QVERIFY(!VenueUse::isTaken(venue_, Way::show));
+    QVERIFY(VenueUse::take(venue_, Way::show).has_value());
+    QVERIFY(VenueUse::take(folder_.filePath("other").toStdString(), Way::wizard).has_value());
+  }
+
+  void itIsTheSameVenueHoweverItIsNamed_data() {
+    QTest::addColumn<QString>("name");
+    QTest::newRow("ends in a separator") << folder_.filePath("venue/");
+    QTest::newRow("by the way") << folder_.filePath("venue/../venue/.");
+    QTest::newRow("from here") << QDir::current().relativeFilePath(folder_.filePath("venue"));
+    QTest::newRow("by a link") << folder_.filePath("link");
+  }
+  void itIsTheSameVenueHoweverItIsNamed() {
+    QFETCH(QString, name);
+    if (!QFile::exists(folder_.filePath("link")))
+      fs::create_symlink(venue_, folder_.filePath("link").toStdString());
+    const auto use = VenueUse::take(venue_, Way::wizard);
+    QVERIFY(VenueUse::isTaken(name.toStdString(), Way::wizard));
+  }
+
+  void whoIsKilledUsesNothing() {
+    int ready[2];
+    QCOMPARE(pipe(ready), 0);
+    const pid_t other = fork();
+    if (other == 0) {
+      const auto use = VenueUse::take(venue_, Way::show);
+      const char answer = use ? 'y' : 'n';
+      [[maybe_unused]] const auto written = write(ready[1], &answer, 1);
+      for (;;) pause();
+    }
+    char answer = 0;
+    QCOMPARE(read(ready[0], &answer, 1), 1);
+    QCOMPARE(answer, 'y');
+    QVERIFY(VenueUse::isTaken(venue_, Way::show));
+    kill(other, SIGKILL);
+    QCOMPARE(waitpid(other, nullptr, 0), other);
+    QVERIFY(!VenueUse::isTaken(venue_, Way::show));
+    close(ready[0]);
+    close(ready[1]);
+  }
+
+  void aSecondWizardDoesNotOpenIt() {
+    SimulatedSession first;
+    first.begin();
+    Session second(first.path("cache"));
+    const auto sentence = [&] {
+      try {
+        second.open(first.path("venue"));
+      } catch (const Error& error) {
+        return QString(error.what());
+      }
+      return QString();
+    };
+    QVERIFY2(sentence().contains("open in another window"), qPrintable(sentence()));
+    QVERIFY(!second.isOpen());
+    first.session.open(first.path("venue"));  // again, where it is open already
+    QVERIFY(first.session.isOpen() && !sentence().isEmpty());
+    first.begin(smallVenue(), "next");
+    QCOMPARE(sentence(), QString());
+    QVERIFY(second.isOpen());
+    second.close();
+    first.session.open(first.path("venue"));
+    QVERIFY(first.session.isOpen());
+  }
+
+  void aShowBesideTheWizardIsKnown() {
+    SimulatedSession venue;
+    venue.begin();
+    QVERIFY(!venue.session.isShownElsewhere());
+    QSignalSpy told(&venue.session, &Session::devicesChanged);
+    {
+      const auto show = VenueUse::take(venue.path("venue"), Way::show);
+      QTRY_VERIFY_WITH_TIMEOUT(venue.session.isShownElsewhere(), patience);
+      QCOMPARE(told.size(), 1);
+      Session another(venue.path("cache"));
+      another.begin(venue.path("next"), smallVenue());
+      QVERIFY(!another.isShownElsewhere());
+    }
+    QTRY_VERIFY_WITH_TIMEOUT(!venue.session.isShownElsewhere(), patience);
+    QCOMPARE(told.size(), 2);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestVenueUse)
+#include "test_venue_use.moc"

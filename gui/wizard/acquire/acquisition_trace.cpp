@@ -231,7 +231,8 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
                           : tr("No difference between photographs of one pattern was found.")}}};
   for (WatchState& state : states)
     if (isOver && !state.isSteady)
-      state = {false, true, tr("Put right"), tr("Looked at again at the next check.")};
+      state = {false, true, isPutRight_ ? tr("Put right") : tr("Photographed again"),
+               tr("Looked at again at the next check.")};
   return states;
 }
 

@@ -502,6 +502,8 @@ DeviceLease Session::leaseDevices(const StepName& step, DeviceWork work, std::fu
   whenUnclear_ = std::move(whenUnclear);
   if (devices_) devices_->patience().wait();
   silence_.start();
+  // What was seen for the work before says nothing of now.
+  if (std::exchange(roomLight_, std::nullopt)) Q_EMIT roomLightChanged();
   Q_EMIT devicesChanged();
   return DeviceLease(*this);
 }

@@ -4204,6 +4204,10 @@
         <source>The light flickers, or was switched</source>
         <translation>الضوء يرتعش أو شُغّل أو أُطفئ</translation>
     </message>
+    <message>
+        <source>Photographed again</source>
+        <translation>أُعيد التصوير</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>
@@ -4998,6 +5002,14 @@
     <message>
         <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
         <translation>ما يبدأ هنا يُسقَط بدلًا منه. ويُرى العرض من جديد عندما ينتهي ذلك.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue</source>
+        <translation>يشغّل برنامج آخر عرضًا لهذا الموقع</translation>
+    </message>
+    <message>
+        <source>End it before light is measured: its pictures may come between the patterns.</source>
+        <translation>أنهِه قبل قياس الضوء: فقد تظهر صوره بين الأنماط.</translation>
     </message>
 </context>
 <context>
@@ -6919,6 +6931,10 @@ projector %2</source>
         <source>It plays this playlist with the measurement that is in use by then.</source>
         <translation>يشغّل قائمة التشغيل هذه بالقياس المستخدم حينها.</translation>
     </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of this venue.</source>
+        <translation>الخرج مغلق هنا. يشغّل برنامج آخر عرضًا لهذا الموقع.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7068,6 +7084,14 @@ projector %2</source>
     <message>
         <source>Picture: %1</source>
         <translation>الصورة: %1</translation>
+    </message>
+    <message>
+        <source>Not perfected since it changed</source>
+        <translation>غير محسَّنة منذ التغيير</translation>
+    </message>
+    <message>
+        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>حُسِّنت لقياس سابق أو لموضع آخر. ذلك محفوظ، لكنه لا يفيد الآن: حسِّنها مرة أخرى.</translation>
     </message>
 </context>
 <context>
@@ -7758,6 +7782,10 @@ projector %2</source>
     <message>
         <source>Predicted from the measurement. The output stays as it is.</source>
         <translation>متوقّع من القياس. يبقى الإخراج كما هو.</translation>
+    </message>
+    <message>
+        <source>The content was placed on another measurement or threshold</source>
+        <translation>وُضع المحتوى وفق قياس آخر أو عتبة أخرى</translation>
     </message>
 </context>
 <context>
@@ -9757,6 +9785,20 @@ projector %2</source>
     <message>
         <source>{}; {}</source>
         <translation>{}؛ {}</translation>
+    </message>
+</context>
+<context>
+    <name>session.close-other-window</name>
+    <message>
+        <source>go on there, or close it there first</source>
+        <translation>تابع هناك، أو أغلقه هناك أولًا</translation>
+    </message>
+</context>
+<context>
+    <name>session.open-in-another-window</name>
+    <message>
+        <source>this venue is open in another window of Relucent</source>
+        <translation>هذا الموقع مفتوح في نافذة أخرى من Relucent</translation>
     </message>
 </context>
 <context>

@@ -4116,6 +4116,10 @@
         <source>The light flickers, or was switched</source>
         <translation>Das Licht flackert oder wurde geschaltet</translation>
     </message>
+    <message>
+        <source>Photographed again</source>
+        <translation>Erneut fotografiert</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>
@@ -4882,6 +4886,14 @@
     <message>
         <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
         <translation>Was hier begonnen wird, leuchtet an ihrer Stelle. Danach ist die Show wieder zu sehen.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue</source>
+        <translation>Ein anderes Programm spielt eine Show dieses Spielorts</translation>
+    </message>
+    <message>
+        <source>End it before light is measured: its pictures may come between the patterns.</source>
+        <translation>Beenden Sie sie, bevor Licht gemessen wird: Ihre Bilder können zwischen die Muster geraten.</translation>
     </message>
 </context>
 <context>
@@ -6775,6 +6787,10 @@ Projektor %2</translation>
         <source>It plays this playlist with the measurement that is in use by then.</source>
         <translation>Sie spielt diese Playlist mit der Messung, die dann verwendet wird.</translation>
     </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of this venue.</source>
+        <translation>Die Ausgabe ist hier geschlossen. Ein anderes Programm spielt eine Show dieses Spielorts.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6916,6 +6932,14 @@ Projektor %2</translation>
     <message>
         <source>Picture: %1</source>
         <translation>Bild: %1</translation>
+    </message>
+    <message>
+        <source>Not perfected since it changed</source>
+        <translation>Seit der Änderung nicht perfektioniert</translation>
+    </message>
+    <message>
+        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Es wurde für eine frühere Messung oder anders platziert perfektioniert. Das ist aufgehoben, nützt jetzt aber nichts: Perfektionieren Sie es noch einmal.</translation>
     </message>
 </context>
 <context>
@@ -7606,6 +7630,10 @@ Projektor %2</translation>
     <message>
         <source>Predicted from the measurement. The output stays as it is.</source>
         <translation>Aus der Messung vorhergesagt. Die Ausgabe bleibt, wie sie ist.</translation>
+    </message>
+    <message>
+        <source>The content was placed on another measurement or threshold</source>
+        <translation>Der Inhalt wurde auf einer anderen Messung oder Schwelle platziert</translation>
     </message>
 </context>
 <context>
@@ -9557,6 +9585,20 @@ Projektor %2</translation>
     <message>
         <source>{}; {}</source>
         <translation>{}; {}</translation>
+    </message>
+</context>
+<context>
+    <name>session.close-other-window</name>
+    <message>
+        <source>go on there, or close it there first</source>
+        <translation>arbeiten Sie dort weiter, oder schließen Sie ihn dort zuerst</translation>
+    </message>
+</context>
+<context>
+    <name>session.open-in-another-window</name>
+    <message>
+        <source>this venue is open in another window of Relucent</source>
+        <translation>dieser Spielort ist in einem anderen Fenster von Relucent geöffnet</translation>
     </message>
 </context>
 <context>

@@ -4116,6 +4116,10 @@
         <source>The light flickers, or was switched</source>
         <translation>La luz parpadea o se ha encendido o apagado</translation>
     </message>
+    <message>
+        <source>Photographed again</source>
+        <translation>Fotografiado de nuevo</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>
@@ -4882,6 +4886,14 @@
     <message>
         <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
         <translation>Lo que se inicie aquí se proyecta en su lugar. El show vuelve a verse cuando termine.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue</source>
+        <translation>Otro programa está reproduciendo un show de este lugar</translation>
+    </message>
+    <message>
+        <source>End it before light is measured: its pictures may come between the patterns.</source>
+        <translation>Termínelo antes de medir la luz: sus imágenes pueden aparecer entre los patrones.</translation>
     </message>
 </context>
 <context>
@@ -6775,6 +6787,10 @@ proyector %2</translation>
         <source>It plays this playlist with the measurement that is in use by then.</source>
         <translation>Reproduce esta lista con la medición que se use entonces.</translation>
     </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of this venue.</source>
+        <translation>La salida está cerrada aquí. Otro programa está reproduciendo un show de este lugar.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6916,6 +6932,14 @@ proyector %2</translation>
     <message>
         <source>Picture: %1</source>
         <translation>Imagen: %1</translation>
+    </message>
+    <message>
+        <source>Not perfected since it changed</source>
+        <translation>Sin perfeccionar desde el cambio</translation>
+    </message>
+    <message>
+        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Se perfeccionó para una medición anterior, o colocada de otro modo. Eso se conserva, pero ahora no sirve: perfecciónela otra vez.</translation>
     </message>
 </context>
 <context>
@@ -7606,6 +7630,10 @@ proyector %2</translation>
     <message>
         <source>Predicted from the measurement. The output stays as it is.</source>
         <translation>Predicho a partir de la medición. La salida queda como está.</translation>
+    </message>
+    <message>
+        <source>The content was placed on another measurement or threshold</source>
+        <translation>El contenido se colocó sobre otra medición u otro umbral</translation>
     </message>
 </context>
 <context>
@@ -9557,6 +9585,20 @@ proyector %2</translation>
     <message>
         <source>{}; {}</source>
         <translation>{}; {}</translation>
+    </message>
+</context>
+<context>
+    <name>session.close-other-window</name>
+    <message>
+        <source>go on there, or close it there first</source>
+        <translation>continúe allí, o ciérrelo allí primero</translation>
+    </message>
+</context>
+<context>
+    <name>session.open-in-another-window</name>
+    <message>
+        <source>this venue is open in another window of Relucent</source>
+        <translation>este lugar está abierto en otra ventana de Relucent</translation>
     </message>
 </context>
 <context>

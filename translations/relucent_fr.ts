@@ -4116,6 +4116,10 @@
         <source>The light flickers, or was switched</source>
         <translation>La lumière scintille ou a été allumée ou éteinte</translation>
     </message>
+    <message>
+        <source>Photographed again</source>
+        <translation>Rephotographié</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>
@@ -4882,6 +4886,14 @@
     <message>
         <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
         <translation>Ce qui est lancé ici est projeté à sa place. La diffusion réapparaît une fois que c’est terminé.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue</source>
+        <translation>Un autre programme diffuse ce lieu</translation>
+    </message>
+    <message>
+        <source>End it before light is measured: its pictures may come between the patterns.</source>
+        <translation>Arrêtez-la avant de mesurer la lumière&#xa0;: ses images peuvent se glisser entre les motifs.</translation>
     </message>
 </context>
 <context>
@@ -6775,6 +6787,10 @@ projecteur %2</translation>
         <source>It plays this playlist with the measurement that is in use by then.</source>
         <translation>Il lit cette liste avec la mesure utilisée à ce moment-là.</translation>
     </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of this venue.</source>
+        <translation>La sortie est fermée ici. Un autre programme diffuse ce lieu.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6916,6 +6932,14 @@ projecteur %2</translation>
     <message>
         <source>Picture: %1</source>
         <translation>Image&#xa0;: %1</translation>
+    </message>
+    <message>
+        <source>Not perfected since it changed</source>
+        <translation>Pas perfectionnée depuis le changement</translation>
+    </message>
+    <message>
+        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Elle a été perfectionnée pour une mesure antérieure, ou placée autrement. Cela est conservé, mais ne sert plus&#xa0;: perfectionnez-la encore une fois.</translation>
     </message>
 </context>
 <context>
@@ -7606,6 +7630,10 @@ projecteur %2</translation>
     <message>
         <source>Predicted from the measurement. The output stays as it is.</source>
         <translation>Prévu d’après la mesure. La sortie reste telle quelle.</translation>
+    </message>
+    <message>
+        <source>The content was placed on another measurement or threshold</source>
+        <translation>Le contenu a été placé sur une autre mesure ou un autre seuil</translation>
     </message>
 </context>
 <context>
@@ -9557,6 +9585,20 @@ projecteur %2</translation>
     <message>
         <source>{}; {}</source>
         <translation>{}&#x202f;; {}</translation>
+    </message>
+</context>
+<context>
+    <name>session.close-other-window</name>
+    <message>
+        <source>go on there, or close it there first</source>
+        <translation>continuez là-bas, ou fermez-le d’abord là-bas</translation>
+    </message>
+</context>
+<context>
+    <name>session.open-in-another-window</name>
+    <message>
+        <source>this venue is open in another window of Relucent</source>
+        <translation>ce lieu est ouvert dans une autre fenêtre de Relucent</translation>
     </message>
 </context>
 <context>

@@ -4116,6 +4116,10 @@
         <source>The light flickers, or was switched</source>
         <translation>La luce sfarfalla o è stata accesa o spenta</translation>
     </message>
+    <message>
+        <source>Photographed again</source>
+        <translation>Fotografato di nuovo</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>
@@ -4882,6 +4886,14 @@
     <message>
         <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
         <translation>Ciò che si avvia qui viene proiettato al suo posto. Lo show si rivede quando è finito.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue</source>
+        <translation>Un altro programma sta riproducendo uno show di questo luogo</translation>
+    </message>
+    <message>
+        <source>End it before light is measured: its pictures may come between the patterns.</source>
+        <translation>Va terminato prima di misurare la luce: le sue immagini possono comparire tra i motivi.</translation>
     </message>
 </context>
 <context>
@@ -6775,6 +6787,10 @@ proiettore %2</translation>
         <source>It plays this playlist with the measurement that is in use by then.</source>
         <translation>Riproduce questa playlist con la misura in uso in quel momento.</translation>
     </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of this venue.</source>
+        <translation>L’uscita è chiusa qui. Un altro programma sta riproducendo uno show di questo luogo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6916,6 +6932,14 @@ proiettore %2</translation>
     <message>
         <source>Picture: %1</source>
         <translation>Immagine: %1</translation>
+    </message>
+    <message>
+        <source>Not perfected since it changed</source>
+        <translation>Non perfezionata dopo il cambiamento</translation>
+    </message>
+    <message>
+        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>È stata perfezionata per una misura precedente, o posizionata in altro modo. Resta conservato, ma ora non serve: va perfezionata ancora una volta.</translation>
     </message>
 </context>
 <context>
@@ -7606,6 +7630,10 @@ proiettore %2</translation>
     <message>
         <source>Predicted from the measurement. The output stays as it is.</source>
         <translation>Previsto dalla misura. L’uscita resta com’è.</translation>
+    </message>
+    <message>
+        <source>The content was placed on another measurement or threshold</source>
+        <translation>Il contenuto è stato posizionato su un’altra misura o un’altra soglia</translation>
     </message>
 </context>
 <context>
@@ -9557,6 +9585,20 @@ proiettore %2</translation>
     <message>
         <source>{}; {}</source>
         <translation>{}; {}</translation>
+    </message>
+</context>
+<context>
+    <name>session.close-other-window</name>
+    <message>
+        <source>go on there, or close it there first</source>
+        <translation>continuare lì, oppure chiuderlo prima lì</translation>
+    </message>
+</context>
+<context>
+    <name>session.open-in-another-window</name>
+    <message>
+        <source>this venue is open in another window of Relucent</source>
+        <translation>questo luogo è aperto in un’altra finestra di Relucent</translation>
     </message>
 </context>
 <context>

@@ -4094,6 +4094,10 @@
         <source>The light flickers, or was switched</source>
         <translation>光がちらついているか、点灯・消灯されました</translation>
     </message>
+    <message>
+        <source>Photographed again</source>
+        <translation>撮り直しました</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>
@@ -4853,6 +4857,14 @@
     <message>
         <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
         <translation>ここで始めた作業の光が代わりに投影されます。終わるとショーに戻ります。</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue</source>
+        <translation>別のプログラムがこの会場のショーを再生しています</translation>
+    </message>
+    <message>
+        <source>End it before light is measured: its pictures may come between the patterns.</source>
+        <translation>光を測定する前に終了してください。その画像がパターンの間に現れることがあります。</translation>
     </message>
 </context>
 <context>
@@ -6739,6 +6751,10 @@ projector %2</source>
         <source>It plays this playlist with the measurement that is in use by then.</source>
         <translation>そのとき使われている測定で、このプレイリストを再生します。</translation>
     </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of this venue.</source>
+        <translation>ここの出力は閉じています。別のプログラムがこの会場のショーを再生しています。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6878,6 +6894,14 @@ projector %2</source>
     <message>
         <source>Picture: %1</source>
         <translation>画像：%1</translation>
+    </message>
+    <message>
+        <source>Not perfected since it changed</source>
+        <translation>変更後は未仕上げ</translation>
+    </message>
+    <message>
+        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>以前の測定用、または別の配置で仕上げられています。それは保存されていますが、今は使えません。もう一度仕上げてください。</translation>
     </message>
 </context>
 <context>
@@ -7568,6 +7592,10 @@ projector %2</source>
     <message>
         <source>Predicted from the measurement. The output stays as it is.</source>
         <translation>測定からの予測です。出力はそのままです。</translation>
+    </message>
+    <message>
+        <source>The content was placed on another measurement or threshold</source>
+        <translation>コンテンツは別の測定またはしきい値の上に配置されたものです</translation>
     </message>
 </context>
 <context>
@@ -9507,6 +9535,20 @@ projector %2</source>
     <message>
         <source>{}; {}</source>
         <translation>{}。{}</translation>
+    </message>
+</context>
+<context>
+    <name>session.close-other-window</name>
+    <message>
+        <source>go on there, or close it there first</source>
+        <translation>そちらで続けるか、先にそちらで閉じてください</translation>
+    </message>
+</context>
+<context>
+    <name>session.open-in-another-window</name>
+    <message>
+        <source>this venue is open in another window of Relucent</source>
+        <translation>この会場は Relucent の別のウィンドウで開かれています</translation>
     </message>
 </context>
 <context>

@@ -4094,6 +4094,10 @@
         <source>The light flickers, or was switched</source>
         <translation>光线闪烁或被开关</translation>
     </message>
+    <message>
+        <source>Photographed again</source>
+        <translation>已重新拍摄</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>
@@ -4853,6 +4857,14 @@
     <message>
         <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
         <translation>在此开始的工作会代替节目投影。结束后节目重新显示。</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue</source>
+        <translation>另一个程序正在播放此场地的节目</translation>
+    </message>
+    <message>
+        <source>End it before light is measured: its pictures may come between the patterns.</source>
+        <translation>测量光之前请先结束它：它的画面可能会插到图案之间。</translation>
     </message>
 </context>
 <context>
@@ -6739,6 +6751,10 @@ projector %2</source>
         <source>It plays this playlist with the measurement that is in use by then.</source>
         <translation>届时会以当时使用的测量播放此播放列表。</translation>
     </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of this venue.</source>
+        <translation>此处的输出已关闭。另一个程序正在播放此场地的节目。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6878,6 +6894,14 @@ projector %2</source>
     <message>
         <source>Picture: %1</source>
         <translation>图片：%1</translation>
+    </message>
+    <message>
+        <source>Not perfected since it changed</source>
+        <translation>更改后尚未完善</translation>
+    </message>
+    <message>
+        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>它是为先前的测量或另一种放置完善的。那些结果仍保留，但现在不适用：请再完善一次。</translation>
     </message>
 </context>
 <context>
@@ -7568,6 +7592,10 @@ projector %2</source>
     <message>
         <source>Predicted from the measurement. The output stays as it is.</source>
         <translation>根据测量预测。输出保持不变。</translation>
+    </message>
+    <message>
+        <source>The content was placed on another measurement or threshold</source>
+        <translation>内容是在另一次测量或另一个阈值上放置的</translation>
     </message>
 </context>
 <context>
@@ -9507,6 +9535,20 @@ projector %2</source>
     <message>
         <source>{}; {}</source>
         <translation>{}。{}</translation>
+    </message>
+</context>
+<context>
+    <name>session.close-other-window</name>
+    <message>
+        <source>go on there, or close it there first</source>
+        <translation>请在那里继续，或先在那里关闭它</translation>
+    </message>
+</context>
+<context>
+    <name>session.open-in-another-window</name>
+    <message>
+        <source>this venue is open in another window of Relucent</source>
+        <translation>此场地已在 Relucent 的另一个窗口中打开</translation>
     </message>
 </context>
 <context>

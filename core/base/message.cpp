@@ -41,7 +41,7 @@ struct English {
   std::string operator()(const Size& size) const { return fmt::format("{}x{}", size.width, size.height); }
   std::string operator()(const Argument::Text& text) const { return text.value; }
   std::string operator()(const Argument::File& file) const { return file.path; }
-  std::string operator()(const Argument::Sentence& message) const { return english(message.front()); }
+  std::string operator()(const Argument::Sentence& message) const { return english(*message.message); }
 };
 
 /// The number of a gap that begins at `at`, "{}" being `next`; none: it is no gap. `end` is behind it.
@@ -84,7 +84,11 @@ double Argument::Quantity::shown() const {
   }
 }
 
-Argument::Argument(Message message) : value_(Sentence{std::move(message)}) {}
+bool Argument::Sentence::operator==(const Sentence& other) const {
+  return *message == *other.message;
+}
+
+Argument::Argument(Message message) : value_(Sentence{std::make_shared<const Message>(std::move(message))}) {}
 
 bool Argument::operator==(const Argument&) const = default;
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,7 +65,11 @@ class Argument {
     std::string path;  // UTF-8
     bool operator==(const File&) const = default;
   };
-  using Sentence = std::vector<Message>;  // one; a Message is not complete here
+  /// A message of its own, which never changes.
+  struct Sentence {
+    std::shared_ptr<const Message> message;
+    bool operator==(const Sentence& other) const;
+  };
   using Value = std::variant<Count, Label, Quantity, Size, Text, File, Sentence>;
 
   Argument(Value value) : value_(std::move(value)) {}                                      // NOLINT

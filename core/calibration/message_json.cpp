@@ -23,7 +23,7 @@ struct ToJson {
   Json operator()(const Size& size) const { return {{"size", Json::array({size.width, size.height})}}; }
   Json operator()(const Argument::Text& text) const { return {{"text", text.value}}; }
   Json operator()(const Argument::File& file) const { return {{"file", file.path}}; }
-  Json operator()(const Argument::Sentence& sentence) const { return {{"message", sentence.front()}}; }
+  Json operator()(const Argument::Sentence& sentence) const { return {{"message", *sentence.message}}; }
 };
 
 /// As many as a number has, whatever a stranger's file asks for.

@@ -23,8 +23,7 @@ bool saysTheSame(const Argument& a, const Argument& b) {
   const auto *one = std::get_if<Argument::Sentence>(&a.value()),
              *other = std::get_if<Argument::Sentence>(&b.value());
   if (one == nullptr || other == nullptr) return a == b;
-  return std::ranges::equal(
-      *one, *other, [](const Message& x, const Message& y) { return relucent::pipeline::saysTheSame(x, y); });
+  return relucent::pipeline::saysTheSame(*one->message, *other->message);
 }
 
 /// Whether the last night that was one told of the same.

@@ -14,7 +14,7 @@ std::string keyOf(const Message& sentence) {
   std::string key = sentence.id();
   for (const Argument& argument : sentence.arguments())
     if (const auto* inner = std::get_if<Argument::Sentence>(&argument.value()))
-      key.append(" ").append(keyOf(inner->front()));
+      key.append(" ").append(keyOf(*inner->message));
   return key;
 }
 

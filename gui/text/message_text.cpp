@@ -45,7 +45,7 @@ struct ArgumentText {
   QString operator()(const Size& size) const { return QString("%1x%2").arg(size.width).arg(size.height); }
   QString operator()(const Argument::Text& name) const { return QString::fromStdString(name.value); }
   QString operator()(const Argument::File& file) const { return QString::fromStdString(file.path); }
-  QString operator()(const Argument::Sentence& sentence) const { return text(sentence.front()); }
+  QString operator()(const Argument::Sentence& sentence) const { return text(*sentence.message); }
 };
 
 }  // namespace

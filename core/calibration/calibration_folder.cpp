@@ -282,22 +282,25 @@ void CalibrationFolder::makeLatest(Stage stage, const std::string& inputs) {
   replaceManifest(std::move(manifest));
 }
 
-void CalibrationFolder::setLatestAside(Stage stage) {
-  changeLatest(stage, [](Json& entry) { entry[setAsideKey] = true; });
+void CalibrationFolder::setLatestAside(Stage stage, const Json* settings) {
+  changeLatest(stage, [](Json& entry) { entry[setAsideKey] = true; }, settings);
 }
 
-void CalibrationFolder::changeLatest(Stage stage, const std::function<void(Json& entry)>& change) {
+void CalibrationFolder::changeLatest(Stage stage, const std::function<void(Json& entry)>& change,
+                                     const Json* settings) {
   Json manifest = *manifest_;
   auto entries = manifest["results"].find(std::string(nameOf(stage)));
   if (entries == manifest["results"].end()) return;
   const auto latest = std::find_if_not(entries->rbegin(), entries->rend(), isSetAside);
   if (latest == entries->rend()) return;
   change(*latest);
+  if (settings != nullptr) manifest["settings"] = *settings;
   replaceManifest(std::move(manifest));
 }
 
 StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Json values,
-                                     const std::function<void(const fs::path&)>& writeFiles) {
+                                     const std::function<void(const fs::path&)>& writeFiles,
+                                     const Json* settings) {
   require(access_ == Access::write, "the calibration {} is open for reading", path_.string());
   Json files = Json::object();
   std::string name;
@@ -345,6 +348,7 @@ StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Jso
                 {"values", std::move(values)},
                 {"files", std::move(files)}};
   manifest["results"][std::string(nameOf(stage))].push_back(std::move(entry));
+  if (settings != nullptr) manifest["settings"] = *settings;
   replaceManifest(std::move(manifest));
   return *latest(stage);
 }

@@ -72,13 +72,16 @@ class CalibrationFolder {
 
   /// Stores a result: `writeFiles` writes the large parts into the folder it is given. Only when all of
   /// them are on disk does the manifest name them.
+  /// With it, in the same step, these settings, if any.
   /// Throws: Error{disk} and whatever writeFiles throws; the calibration is then as it was.
   StageResult store(Stage stage, const std::string& inputs, Json values,
-                    const std::function<void(const std::filesystem::path& folder)>& writeFiles = {});
+                    const std::function<void(const std::filesystem::path& folder)>& writeFiles = {},
+                    const Json* settings = nullptr);
 
   /// The newest result of a stage is not found any more, as if there were only those before it. It stays on
-  /// the disk until `tidy` removes it. None: nothing happens.
-  void setLatestAside(Stage stage);
+  /// the disk until `tidy` removes it. With it, in the same step, these settings, if any. None: nothing
+  /// happens.
+  void setLatestAside(Stage stage, const Json* settings = nullptr);
 
   /// The newest result for these inputs counts as the newest of its stage from now on: it is what is used
   /// where there is none for what is asked. None: nothing happens.
@@ -100,7 +103,8 @@ class CalibrationFolder {
   CalibrationFolder(std::filesystem::path path, platform::FolderLock lock, Access access, Json manifest);
   void writeManifest(const Json& manifest) const;
   void replaceManifest(Json manifest);
-  void changeLatest(Stage stage, const std::function<void(Json& entry)>& change);
+  void changeLatest(Stage stage, const std::function<void(Json& entry)>& change,
+                    const Json* settings = nullptr);
   StageResult resultFrom(Stage stage, const Json& entry) const;
   /// Oldest first, without those that are set aside.
   std::vector<const Json*> entriesOf(Stage stage) const;

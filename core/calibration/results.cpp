@@ -203,6 +203,30 @@ linearization::Linearization loadLinearization(const StageResult& result) {
   });
 }
 
+namespace {
+
+/// The settings with some sections replaced; none: there is nothing to replace.
+std::optional<Json> settingsWith(const CalibrationFolder& folder, const std::string& sections) {
+  if (sections.empty()) return std::nullopt;
+  Json settings = folder.settings();
+  settings.update(Json::parse(sections));
+  return settings;
+}
+
+/// Whether these sections of the settings are so now.
+bool isInSettings(const CalibrationFolder& folder, const std::string& sections) {
+  const std::optional<Json> settings = settingsWith(folder, sections);
+  return settings && *settings == folder.settings();
+}
+
+}  // namespace
+
+void setRepairAside(CalibrationFolder& folder, const RepairNote& repair) {
+  const std::optional<Json> settings =
+      isInSettings(folder, repair.contentAfter) ? settingsWith(folder, repair.contentBefore) : std::nullopt;
+  folder.setLatestAside(Stage::acquisition, settings ? &*settings : nullptr);
+}
+
 StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
                              const transport::Acquisition& acquisition, const StageCost& cost,
                              const std::optional<RepairNote>& repair) {
@@ -222,7 +246,8 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
   if (acquisition.expected) values["expected_quality"] = toJson(*acquisition.expected);
   if (repair) values["repair"] = toJson(*repair);
   if (acquisition.changed) values["changed"] = toJson(*acquisition.changed);
-  return folder.store(Stage::acquisition, inputs, values, [&](const fs::path& path) {
+  const std::optional<Json> settings = repair ? settingsWith(folder, repair->contentAfter) : std::nullopt;
+  const auto writeFiles = [&](const fs::path& path) {
     transport::saveTransport(path / "transport.npz", acquisition.transport, transport::StoredValues::codes);
     image::writeStack(path, "black", acquisition.black, cameras, radianceUnits);
     image::writeStack(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);
@@ -234,7 +259,8 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
       image::writeStack(path, residualName(size), acquisition.residual[size], cameras, radianceUnits);
     image::writeStack(path, "flagged", image::stackFromFlags(acquisition.flagged), cameras,
                       "1 where verification failed");
-  });
+  };
+  return folder.store(Stage::acquisition, inputs, values, writeFiles, settings ? &*settings : nullptr);
 }
 
 transport::Acquisition loadAcquisition(const StageResult& result) {

@@ -18,10 +18,13 @@ linearization::Linearization loadLinearization(const StageResult& result);
 
 /// transport.npz (the leaves, see transport/files.h), and per camera black, flood, their variances and the
 /// flags as OpenEXR; figures and findings in the manifest. `repair`: what it was made from, which then stays
-/// among the results, to go back to.
+/// among the results, to go back to, and whose content is in the settings with it, in one step.
 StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
                              const transport::Acquisition& acquisition, const StageCost& cost,
                              const std::optional<RepairNote>& repair = {});
+/// The newest measurement is set aside, which a repair made, and content stands where it stood before that,
+/// unless somebody has changed it since; in one step.
+void setRepairAside(CalibrationFolder& folder, const RepairNote& repair);
 transport::Acquisition loadAcquisition(const StageResult& result);
 /// Of that alone what each camera saw in full light, linear: in no time where T takes long.
 std::vector<image::Image> loadFlood(const StageResult& result);

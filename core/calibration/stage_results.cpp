@@ -58,13 +58,18 @@ Json toJson(const StageCost& cost) {
 }
 
 Json toJson(const RepairNote& repair) {
-  return {{"of", repair.of},
-          {"what", repair.what},
-          {"delta_e_before", repair.deltaEBefore},
-          {"delta_e_after", repair.deltaEAfter},
-          {"psnr_before", repair.psnrBefore},
-          {"psnr_after", repair.psnrAfter},
-          {"cost", toJson(repair.cost)}};
+  Json json{{"of", repair.of},
+            {"what", repair.what},
+            {"delta_e_before", repair.deltaEBefore},
+            {"delta_e_after", repair.deltaEAfter},
+            {"psnr_before", repair.psnrBefore},
+            {"psnr_after", repair.psnrAfter},
+            {"cost", toJson(repair.cost)}};
+  if (repair.contentBefore != repair.contentAfter) {
+    json["content_before"] = Json::parse(repair.contentBefore);
+    json["content_after"] = Json::parse(repair.contentAfter);
+  }
+  return json;
 }
 
 std::optional<RepairNote> repairFrom(const Json& values) {
@@ -78,6 +83,10 @@ std::optional<RepairNote> repairFrom(const Json& values) {
   take(stored, "psnr_before", repair.psnrBefore);
   take(stored, "psnr_after", repair.psnrAfter);
   if (std::optional<StageCost> cost; take(stored, cost), cost) repair.cost = *std::move(cost);
+  if (stored.contains("content_before") && stored.contains("content_after")) {
+    repair.contentBefore = stored.at("content_before").dump();
+    repair.contentAfter = stored.at("content_after").dump();
+  }
   return repair;
 }
 

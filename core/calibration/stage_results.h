@@ -56,6 +56,9 @@ struct RepairNote {
   double deltaEBefore = 0.0, deltaEAfter = 0.0;  // mean CIEDE2000
   double psnrBefore = 0.0, psnrAfter = 0.0;      // dB
   StageCost cost;
+  /// What of the settings says where content stands, as it was and as it went with the cameras' views: JSON,
+  /// sections of the manifest's settings. Empty, or of earlier versions: it stayed.
+  std::string contentBefore{}, contentAfter{};
 };
 
 /// The light transport itself: loadAcquisition().

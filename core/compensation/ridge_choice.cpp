@@ -22,9 +22,7 @@ constexpr Size pictureSize{320, 240};
 /// The targets of the trial pictures; none where no content fits.
 std::vector<Target> trialTargets(const MeasuredVenue& venue) {
   std::vector<Target> targets;
-  Size view = venue.transport.cameras().size(0);
-  if (!largestUpright(placeable(venue), view, static_cast<double>(pictureSize.width) / pictureSize.height))
-    return targets;
+  if (!automaticCorners(venue, static_cast<double>(pictureSize.width) / pictureSize.height)) return targets;
   for (std::uint64_t seed : {1, 2})
     targets.push_back(fitTarget(image::deadLeaves(pictureSize, seed), venue, TargetSettings::ofLight()));
   return targets;

@@ -31,7 +31,7 @@ void checkShapes(const image::Image& content, const MeasuredVenue& venue) {
 /// Where the content goes when nobody says.
 Corners chosenCorners(const image::Image& content, const MeasuredVenue& venue, std::size_t camera) {
   double aspect = static_cast<double>(content.width()) / content.height();
-  std::optional<Corners> found = largestUpright(placeable(venue, camera), viewOf(venue, camera), aspect);
+  std::optional<Corners> found = automaticCorners(venue, aspect, camera);
   if (!found && camera > 0)
     throw Error(
         ErrorKind::input,
@@ -284,6 +284,10 @@ CameraMask placeable(const MeasuredVenue& venue, std::size_t camera) {
   const CameraMask pixels = seesProjection(venue);
   const auto begin = pixels.begin() + static_cast<std::ptrdiff_t>(venue.transport.cameras().offset(camera));
   return {begin, begin + static_cast<std::ptrdiff_t>(viewOf(venue, camera).count())};
+}
+
+std::optional<Corners> automaticCorners(const MeasuredVenue& venue, double aspect, std::size_t camera) {
+  return largestUpright(placeable(venue, camera), viewOf(venue, camera), aspect);
 }
 
 float unreachableWeightOf(const TargetSettings& settings) {

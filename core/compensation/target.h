@@ -40,6 +40,9 @@ struct MeasuredVenue {
 CameraMask seesProjection(const MeasuredVenue& venue);
 /// A camera's pixels that content may cover if no corners are given: its seesProjection().
 CameraMask placeable(const MeasuredVenue& venue, std::size_t camera = 0);
+/// Where content of that width over height goes in a camera's view if nobody says: largestUpright() over
+/// placeable(). None: no part of it is lit well enough.
+std::optional<Corners> automaticCorners(const MeasuredVenue& venue, double aspect, std::size_t camera = 0);
 
 /// Where content lies in the view of a camera beyond the first.
 enum class ViewPlacement { surface, own };

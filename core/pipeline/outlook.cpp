@@ -17,8 +17,7 @@ namespace {
 
 bool holdsPicture(const compensation::MeasuredVenue& venue) {
   Size content = standardImages().front().linear.size();
-  return compensation::largestUpright(placeable(venue), venue.transport.cameras().size(0),
-                                      static_cast<double>(content.width) / content.height)
+  return compensation::automaticCorners(venue, static_cast<double>(content.width) / content.height)
       .has_value();
 }
 

@@ -17,8 +17,10 @@
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/kept_windows.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/moved_content.h"
 #include "relucent/pipeline/projection_photographs.h"
 #include "relucent/pipeline/proof_record.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/transport/difference.h"
@@ -179,14 +181,14 @@ class Repairing {
       Progress proving = progress.part(
           0.2, RELUCENT_MESSAGE("stage.photographing-projections", "Photographing the projections"));
       const MeasuredCalibration now = renewed(renewal.acquisition, proving);
-      prove(now, result, proving);
+      const calibration::ContentResult predicted = prove(now, result, proving);
       result.end = isBetter(result) ? RepairEnd::repaired : RepairEnd::notBetter;
       result.seconds = watch.seconds();
       if (result.end == RepairEnd::repaired) {
         Progress writing =
             progress.part(0.05, RELUCENT_MESSAGE("stage.writing-results", "Writing the results"));
         writing.report(0.0);
-        commit(renewal.acquisition, now, result);
+        commit(renewal.acquisition, now, result, predicted);
       }
     }
     result.seconds = watch.seconds();
@@ -219,9 +221,16 @@ class Repairing {
     return windows;
   }
 
+  /// Where it stood on the surface.
+  ContentSettings moved(const ContentSettings& content, const image::Image& picture,
+                        const MeasuredCalibration& now, const acquisition::VenueChange& change) const {
+    const double aspect = static_cast<double>(picture.width()) / picture.height();
+    return movedContent(content, aspect, measured_.venue, now.venue, change.moved);
+  }
+
   /// The same picture as a show has it by the former T and by the new one, both photographed and compared
-  /// with what can be wanted under the light of now.
-  void prove(const MeasuredCalibration& now, RepairResult& result, Progress& progress) {
+  /// with what can be wanted, where it stood, under the light of now. Returns what is predicted of it.
+  calibration::ContentResult prove(const MeasuredCalibration& now, RepairResult& result, Progress& progress) {
     const image::Image content = provedPicture(settings_, chosen_.content);
     compensation::CompensatorSettings solver;
     solver.clustering = chosen_.clustering;
@@ -231,7 +240,8 @@ class Repairing {
       return compensation::Compensator(by.venue, by.inverse, solver)
           .solve(chosen_.content.method, target, solving);
     };
-    const compensation::Target target = fitTarget(content, now.venue, targetOf(chosen_.content));
+    const compensation::Target target =
+        fitTarget(content, now.venue, targetOf(moved(chosen_.content, content, now, result.change)));
     const compensation::Compensation renewedPicture = solved(now, target),
                                      former = solved(measured_, fitTarget(content, measured_.venue,
                                                                           targetOf(chosen_.content)));
@@ -250,10 +260,12 @@ class Repairing {
     result.after = seen(renewedPicture);
     result.exposures += photographs.exposures();
     result.photographing += secondsOfDevices(photographs.times());
+    const compensation::Prediction predicted = compensation::predict(now.venue, target, renewedPicture);
+    return {predicted.reachable, predicted.meanDeltaE};
   }
 
   void commit(const transport::Acquisition& renewed, const MeasuredCalibration& now,
-              const RepairResult& result) const {
+              const RepairResult& result, const calibration::ContentResult& predicted) const {
     CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
     if (fingerprintOfCorrection(folder) != correction_)
       throw Error(ErrorKind::input,
@@ -273,8 +285,16 @@ class Repairing {
     note.psnrBefore = result.before[least].psnr;
     note.psnrAfter = result.after[least].psnr;
     note.cost = {result.seconds, renewed.patterns, result.exposures};
+    note.contentBefore = contentSections(folder, [](const ContentSettings& content) { return content; });
+    note.contentAfter = contentSections(folder, [&](const ContentSettings& content) {
+      return moved(content, provedPicture({}, content), now, result.change);
+    });
+    const bool wasDecided =
+        calibration::progressOf(folder, Stage::content) != calibration::StageProgress::open;
     calibration::storeAcquisition(folder, inputs_, renewed, cost_, note);
     keepWindows(folder, now.venue, windows(), now.inverse);
+    // Somebody placed it, and it stands there: nobody has to look at it for that.
+    if (wasDecided) calibration::storeDecision(folder, predicted);
   }
 
   fs::path path_;
@@ -318,7 +338,7 @@ UndoneRepair undoRepair(const fs::path& path) {
                 RELUCENT_ENGLISH_MESSAGE("repair.former-removed-advice",
                                          "go on with the repaired one, or measure the venue again"),
                 path.string());
-  folder.setLatestAside(Stage::acquisition);
+  calibration::setRepairAside(folder, *repair);
   const auto former = calibration::currentResultOf(folder, Stage::acquisition);
   return {former ? former->stored : std::string()};
 }

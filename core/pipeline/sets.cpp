@@ -59,9 +59,8 @@ void requireNew(const TargetSets& sets, const std::string& name, const Calibrati
                 folder.path().string());
 }
 
-/// The sets, and the content of the one in use, at once.
-void keep(CalibrationFolder& folder, const TargetSets& sets) {
-  Json settings = folder.settings();
+/// A manifest's settings with these sets, and the content of the one in use.
+Json settingsWith(Json settings, const TargetSets& sets) {
   if (sets.all.empty()) {
     settings.erase(section);
   } else {
@@ -73,7 +72,18 @@ void keep(CalibrationFolder& folder, const TargetSets& sets) {
     }
     settings[section] = {{"version", setsVersion}, {"in_use", sets.nameInUse()}, {"sets", std::move(list)}};
   }
-  folder.setSettings(std::move(settings));
+  return settings;
+}
+
+void keep(CalibrationFolder& folder, const TargetSets& sets) {
+  folder.setSettings(settingsWith(folder.settings(), sets));
+}
+
+std::string contentIn(const Json& settings) {
+  Json sections = Json::object();
+  for (const char* each : {"content", section})
+    if (settings.contains(each)) sections[each] = settings.at(each);
+  return sections.dump();
 }
 
 bool isUtf8(const std::string& text) {
@@ -193,6 +203,18 @@ CalibrationFolder openWithSet(const std::filesystem::path& path, const std::stri
 compensation::TargetSettings targetIn(const CalibrationFolder& folder, const std::string& set,
                                       const compensation::TargetSettings& otherwise) {
   return set.empty() ? withMasks(otherwise, folder) : targetOf(settingsOf(folder).content);
+}
+
+std::string contentSections(const CalibrationFolder& folder,
+                            const std::function<ContentSettings(const ContentSettings&)>& change) {
+  TargetSets sets = setsOf(folder);
+  if (!sets.all.empty()) {
+    for (TargetSet& set : sets.all) set.content = change(set.content);
+    return contentIn(settingsWith(folder.settings(), sets));
+  }
+  Json settings = folder.settings();
+  settings["content"] = contentToJson(change(settingsOf(folder).content));
+  return contentIn(settings);
 }
 
 Json toJson(const TargetSets& sets) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,6 +66,11 @@ calibration::CalibrationFolder openWithSet(const std::filesystem::path& path, co
 /// masks where it says nothing of them.
 compensation::TargetSettings targetIn(const calibration::CalibrationFolder& folder, const std::string& set,
                                       const compensation::TargetSettings& otherwise);
+
+/// What of the manifest's settings says what is shown, the content and that of all sets, as it would be if
+/// each were changed so: sections of them, JSON. Throws: as setsOf().
+std::string contentSections(const calibration::CalibrationFolder& folder,
+                            const std::function<ContentSettings(const ContentSettings&)>& change);
 
 /// {"in_use", "sets": [{"name", "content"}, ...]}, each with all of its content.
 calibration::Json toJson(const TargetSets& sets);

@@ -67,7 +67,10 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     if (isStopping()) session_.giveUpCamera();
     tellSettings();
   });
-  connect(&job_, &Job::progressed, this, &AcquirePage::tellProgress);
+  connect(&job_, &Job::progressed, this, [this] {
+    isFinestDone_ = isFinestDone_ || isWorkingOut();
+    tellProgress();
+  });
   connect(&job_, &Job::expected, this, &AcquirePage::expect);
   connect(&job_, &Job::ended, this, &AcquirePage::ended);
   connect(&room_, &RoomQuestion::changed, this, &AcquirePage::diskChanged);
@@ -190,6 +193,7 @@ QString AcquirePage::hint() const {
 }
 
 void AcquirePage::updateCommands() {
+  DevicePage::updateCommands();
   const bool mayStart = session_.areDevicesFree() && session_.mayMeasure();
   const bool isNew = isStale() && again_ == 0;
   start_->setGlyph(isNew ? Icon::retry : Icon::play);
@@ -257,6 +261,8 @@ std::vector<PageCommand*> AcquirePage::secondary() const {
 std::optional<Banner> AcquirePage::banner() const {
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOnWithDisk_);
   if (isAsking()) return alarmBanner();
+  if (!session_.isSimulated())
+    if (auto beside = besideAnotherShow()) return beside;
   if (isMeasuring() || isCountingDown()) return std::nullopt;
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
   if (progress == calibration::StageProgress::stale) return staleBanner();
@@ -467,6 +473,7 @@ void AcquirePage::begin() {
   };
   auto expects = [this](const pipeline::Outlook& outlook) { trace_.expects(outlook); };
   rate_.forget();
+  isFinestDone_ = false;
   job_.start([work = workOf(session_), anew = anew_, handler, retrying, expects,
               room = &room_](Progress& progress) {
     room->countPauses([live = work.devices->sharedLive()] { return live->paused(); });

@@ -267,6 +267,7 @@ class AcquirePage : public DevicePage {
   std::string responseStored_;  // when that was
   int kept_ = 0, again_ = 0;    // photographs: in the journal; of them, newer than the result
   bool anew_ = false;           // nothing of the last measurement is used again
+  bool isFinestDone_ = false;   // what its finest blocks say has been worked out
   bool returns_ = false;        // when it has ended
   QTimer second_;
   QTimer leaving_;  // a second each

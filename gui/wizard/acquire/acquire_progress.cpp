@@ -26,8 +26,8 @@ std::optional<double> AcquirePage::progress() const {
   const PatternCount count = patterns();
   const double photographed =
       pipeline::photographedShare * static_cast<double>(count.taken) / std::max(1, count.expected);
-  // After the last photograph, how far its result is; before it, photographs tell better.
-  const bool isConcluding = isWorkingOut() && job_.fraction() > pipeline::photographedShare;
+  // Before the finest blocks are worked out, photographs tell better.
+  const bool isConcluding = isFinestDone_ && job_.fraction() > pipeline::photographedShare;
   return std::min(mostBeforeTheEnd, isConcluding ? job_.fraction() : photographed);
 }
 
@@ -62,7 +62,7 @@ PatternCount AcquirePage::patterns() const {
 }
 
 /// In all, by the levels that have begun. The finest goes on while that makes predictions better: before it
-/// has as many patterns as were expected of it, nobody takes it for complete.
+/// has as many patterns as were expected of it, or is worked out, nobody takes it for complete.
 int AcquirePage::patternsExpected() const {
   if (isDone()) return cost().value_or(calibration::StageCost()).patterns;
   const Rasters projectors = session_.projectorRasters();
@@ -70,7 +70,7 @@ int AcquirePage::patternsExpected() const {
   const Rasters cameras = camerasUsed();
   const acquisition::AcquisitionSettings& settings = session_.settings().acquisition;
   acquisition::AcquisitionState state{isTraceCurrent() ? trace_.growth().levels : std::vector<int>()};
-  if (!state.levels.empty()) {
+  if (!state.levels.empty() && !(isMeasuring() && isFinestDone_)) {
     const std::span before(state.levels.begin(), state.levels.end() - 1);
     const auto expected = acquisition::levelPatterns(projectors, settings, before);
     if (expected.size() == state.levels.size())

@@ -2,8 +2,11 @@
 #include "relucent/platform/process.h"
 
 #include <malloc.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
+
+#include <limits>
 
 namespace relucent::platform {
 namespace {
@@ -22,6 +25,12 @@ double secondsOf(const timeval& time) {
 
 std::uint64_t processNumber() {
   return static_cast<std::uint64_t>(::getpid());
+}
+
+bool askToEnd(std::uint64_t number) {
+  // What is no single program's number means many of them to the system.
+  if (number <= 1 || number > std::uint64_t{std::numeric_limits<pid_t>::max()}) return false;
+  return ::kill(static_cast<pid_t>(number), SIGTERM) == 0;
 }
 
 double processorSeconds() {

@@ -3,8 +3,12 @@
 
 #include <QCryptographicHash>
 #include <QDir>
+#include <QFile>
+#include <QSaveFile>
 #include <QStandardPaths>
 #include <system_error>
+
+#include "relucent/platform/process.h"
 
 namespace relucent::gui {
 namespace {
@@ -18,16 +22,25 @@ QString noteOf(const fs::path& venue, VenueUse::Way way) {
   const fs::path whole = fs::weakly_canonical(venue / "", ignored);
   const QByteArray name =
       QCryptographicHash::hash(QByteArray::fromStdString(whole.string()), QCryptographicHash::Sha1);
-  return QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + "/in-use/" +
+  // Not by the program's names: every part of it, and tests of it, mean the same.
+  return QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/relucent/in-use/" +
          (way == VenueUse::Way::wizard ? "wizard-" : "show-") + name.toHex();
 }
+
+constexpr const char* holderName = "/process";  // its number
 
 }  // namespace
 
 std::optional<VenueUse> VenueUse::take(const fs::path& venue, Way way) try {
   const QString note = noteOf(venue, way);
   if (!QDir().mkpath(note)) return VenueUse(std::nullopt);
-  return VenueUse(platform::FolderLock(note.toStdString(), Kind::write));
+  platform::FolderLock lock(note.toStdString(), Kind::write);
+  QSaveFile holder(note + holderName);
+  if (holder.open(QIODevice::WriteOnly)) {
+    holder.write(QByteArray::number(quint64{platform::processNumber()}));
+    holder.commit();
+  }
+  return VenueUse(std::move(lock));
 } catch (const std::system_error& failure) {
   if (failure.code() == std::errc::operation_would_block) return std::nullopt;
   return VenueUse(std::nullopt);
@@ -39,6 +52,14 @@ bool VenueUse::isTaken(const fs::path& venue, Way way) try {
   return false;
 } catch (const std::system_error& failure) {
   return failure.code() == std::errc::operation_would_block;
+}
+
+bool VenueUse::end(const fs::path& venue, Way way) {
+  QFile holder(noteOf(venue, way) + holderName);
+  if (!isTaken(venue, way) || !holder.open(QIODevice::ReadOnly)) return false;
+  bool isNumber = false;
+  const quint64 number = holder.readAll().toULongLong(&isNumber);
+  return isNumber && platform::askToEnd(number);
 }
 
 }  // namespace relucent::gui

@@ -22,6 +22,8 @@ class VenueUse {
   static std::optional<VenueUse> take(const std::filesystem::path& venue, Way way);
   /// Whether another program does, or another VenueUse of this one.
   static bool isTaken(const std::filesystem::path& venue, Way way);
+  /// Asks that program to end, which it does in its own time. False: there is none.
+  static bool end(const std::filesystem::path& venue, Way way);
 
  private:
   explicit VenueUse(std::optional<platform::FolderLock> lock) : lock_(std::move(lock)) {}

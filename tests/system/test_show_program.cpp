@@ -12,6 +12,7 @@
 
 #include "gui/content/avi_film.h"
 #include "gui/output/two_screens.h"
+#include "output/venue_use.h"
 
 using namespace relucent;
 using namespace relucent::gui;
@@ -121,6 +122,9 @@ class TestShowProgram : public QObject {
     QVERIFY(uncompensated.mean > 10.0 * apart.mean);
     QCOMPARE(health()["state"].toString(), QString("playing"));
     QVERIFY(health()["displays"][0]["shining"].toBool());
+    const std::string venue = calibration().toStdString();
+    QVERIFY(VenueUse::isTaken(venue, VenueUse::Way::show) &&
+            !VenueUse::isTaken(venue, VenueUse::Way::wizard));
 
     // What counts is on the surface: what stands on the display, photographed in the venue, is as near to the
     // wanted picture as the pipeline's own.
@@ -138,10 +142,11 @@ class TestShowProgram : public QObject {
       xrandr({"--output", "DUMMY1", "--mode", "relucent-128x96", "--right-of", "DUMMY0"});
       QTRY_VERIFY_WITH_TIMEOUT(distance(seenOn("DUMMY1"), refined).within > 0.95, patience);
     }
-    QCOMPARE(kill(static_cast<pid_t>(show.processId()), SIGTERM), 0);
+    QVERIFY(VenueUse::end(venue, VenueUse::Way::show));  // as a wizard beside it does
     QVERIFY(show.waitForFinished(patience));
     QCOMPARE(show.exitStatus(), QProcess::NormalExit);
     QCOMPARE(show.exitCode(), 0);
+    QVERIFY(!VenueUse::isTaken(venue, VenueUse::Way::show));
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
     QCOMPARE(health()["state"].toString(), QString("stopped"));
   }

@@ -195,6 +195,7 @@ QString CameraPage::hint() const {
 }
 
 void CameraPage::updateCommands() {
+  DevicePage::updateCommands();
   const bool seen =
       isChecked() || session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
   const bool free = session_.areDevicesFree();

@@ -27,6 +27,9 @@ class DevicePage : public PageModel {
  protected:
   /// Of a page whose work lights the projectors: while a show plays on them, that it would be covered.
   std::optional<Banner> overTheShow() const;
+  /// Of any page that lights them: that another program does, too, and how that ends.
+  std::optional<Banner> besideAnotherShow() const;
+  void updateCommands() override;
   /// Another one is shown now; before settingsChanged() tells.
   virtual void projectorChanged() {}
   virtual void cameraChanged() {}
@@ -34,6 +37,9 @@ class DevicePage : public PageModel {
   Session& session_;
 
  private:
+  void askToEndShow();
+  PageCommand *endShow_, *endShowNow_, *letItPlay_;
+  std::unique_ptr<QObject> endingShow_;  // while it is asked whether to
   std::size_t projector_ = 0, camera_ = 0;
 };
 

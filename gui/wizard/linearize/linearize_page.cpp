@@ -98,6 +98,7 @@ QString LinearizePage::hint() const {
 }
 
 void LinearizePage::updateCommands() {
+  DevicePage::updateCommands();
   const bool free = session_.areDevicesFree() && session_.mayMeasure();
   next_->show(addsUp() ? tr("Plan acquisition") : tr("Continue anyway"));
   measure_->setGlyph(isStale() ? Icon::retry : Icon::play);

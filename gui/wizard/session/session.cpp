@@ -63,6 +63,9 @@ Session::Session(fs::path cache, QObject* parent)
   shows_.setInterval(2'000);
   connect(&shows_, &QTimer::timeout, this, &Session::lookForShow);
   shows_.start();
+  consent_.setSingleShot(true);
+  consent_.setInterval(std::chrono::minutes(30));
+  connect(&consent_, &QTimer::timeout, this, [this] { setRoomClear(false); });
   silence_.setInterval(250);
   connect(&silence_, &QTimer::timeout, this, &Session::listenForCamera);
 }
@@ -121,6 +124,14 @@ void Session::lookForShow() {
   if (std::exchange(isShownElsewhere_, isShown) != isShown) Q_EMIT devicesChanged();
 }
 
+void Session::endOtherShow() {
+  if (VenueUse::end(path_, VenueUse::Way::show) || !VenueUse::isTaken(path_, VenueUse::Way::show)) return;
+  throw Error(
+      ErrorKind::input,
+      RELUCENT_MESSAGE("session.cannot-end-show", "the other program may not be ended from here"),
+      RELUCENT_MESSAGE("session.end-show-itself", "hold Esc on the projector's picture for two seconds"));
+}
+
 void Session::putRight() {
   if (surprises_) surprises_->putRight();
 }
@@ -138,6 +149,7 @@ void Session::adopt(calibration::CalibrationFolder given) {
   live_->resume();  // work that still ends must not stand still for ever
   live_ = std::make_shared<LiveRig>();
   roomClear_ = false;
+  consent_.stop();
   roomLight_.reset();
   slowDown();
   makeDevices();
@@ -474,6 +486,7 @@ void Session::slowDown() {
 
 void Session::setRoomClear(bool clear) {
   roomClear_ = clear;
+  clear&& areDevicesFree() ? consent_.start() : consent_.stop();
   consentChanged();
 }
 
@@ -498,6 +511,7 @@ void Session::setShowing(bool showing) {
 DeviceLease Session::leaseDevices(const StepName& step, DeviceWork work, std::function<void()> whenUnclear) {
   require(areDevicesFree(), "the devices are in use");
   devicesUser_ = step;
+  consent_.stop();
   deviceWork_ = work;
   whenUnclear_ = std::move(whenUnclear);
   if (devices_) devices_->patience().wait();
@@ -532,6 +546,7 @@ void Session::giveUpCamera() {
 void Session::takeBackDevices() {
   devicesUser_.reset();
   whenUnclear_ = nullptr;
+  if (roomClear_) consent_.start();
   silence_.stop();
   silentCamera_.reset();
   cameraFailure_.clear();

@@ -280,9 +280,10 @@ class Session : public QObject {
   void setFlashLimit(int changesPerSecond);
   int flashLimit() const { return flashLimit_; }
   /// Somebody has said that the room is clear and everyone in it knows. Never remembered: said for each
-  /// opening.
+  /// opening, and anew once nothing has used the devices for a while, in which others may have come in.
   bool isRoomClear() const { return roomClear_; }
   void setRoomClear(bool clear);
+  void setConsentTime(std::chrono::milliseconds time) { consent_.setInterval(time); }
   /// Measuring may flash real light, more than three times a second, only after a consent.
   bool needsConsent() const { return isOpen() && hasLight() && flashLimit_ == 0; }
   bool mayMeasure() const { return !needsConsent() || roomClear_; }
@@ -324,6 +325,8 @@ class Session : public QObject {
   void setShowing(bool showing);
   /// `relucent show` plays this venue beside the wizard, on this computer.
   bool isShownElsewhere() const { return isShownElsewhere_; }
+  /// Asks that show to end. Throws: Error{input} if this may not.
+  void endOtherShow();
   /// What another calibration, or the end of the program, would end: not without a question.
   UnderWay underWay() const { return {isMeasuring(), isShowing_}; }
   /// Why a step can keep no settings now, in a sentence: work of another step has the calibration. Empty: it
@@ -397,6 +400,7 @@ class Session : public QObject {
   std::function<void()> whenUnclear_;  // of who uses them; empty: nothing of that flashes
   bool isShowing_ = false, isShownElsewhere_ = false;
   int flashLimit_ = 0;
+  QTimer consent_;  // runs while the room is said to be clear and nothing is done there
   bool roomClear_ = false;
   std::set<std::string> missingScreens_;  // by connector
   std::optional<std::size_t> silentCamera_;

@@ -13,6 +13,7 @@
 #include "gui/output/two_screens.h"
 #include "gui/wizard/simulated_session.h"
 #include "output/default_picture.h"
+#include "output/venue_use.h"
 #include "relucent/calibration/json.h"
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/pipeline/calibrate.h"
@@ -96,6 +97,35 @@ class TestWhatPlays : public QObject {
   void cleanup() {
     page_.reset();
     session().close();
+  }
+
+  /// An installed show, begun beside the wizard: its pictures are on the projector whatever is said here.
+  void aShowOfAnotherProgramIsTold() {
+    const auto isTold = [this] {
+      return page_->banner() && page_->banner()->sentence.contains("Another program");
+    };
+    QVERIFY(!isTold());
+    for (const bool isOpen : {false, true}) {
+      if (isOpen) openOutput();
+      {
+        const auto show = VenueUse::take(own_.path("venue"), VenueUse::Way::show);
+        QTRY_VERIFY_WITH_TIMEOUT(isTold(), patience);
+        if (!isOpen) {
+          QVERIFY(page_->hint().contains("Another program"));
+          QVERIFY(page_->whatIsProjected().contains("Another program"));
+          QVERIFY(!page_->status().result.isEmpty());
+        }
+        QSignalSpy asked(page_.get(), &PageModel::failed);
+        page_->banner()->command->trigger();
+        QCOMPARE(asked.size(), 1);
+        const auto question = asked.front().front().value<FailureReport>();
+        QVERIFY(question.isQuestion && question.reason);
+        QCOMPARE(question.resume->text(), OutputPage::tr("Let it play"));
+        question.resume->trigger();
+        QVERIFY(!question.reason);  // gone with the answer
+      }
+      QTRY_VERIFY_WITH_TIMEOUT(!isTold(), patience);
+    }
   }
 
   /// Another set goes onto the projector while it plays, and is what is proved from then on.

@@ -47,6 +47,23 @@ class TestDeviceLease : public QObject {
     QVERIFY(session_->areDevicesFree() && session_->devicesUserName().isEmpty());
   }
 
+  /// Whoever said that the room is clear has not looked since.
+  void aConsentEndsWhereNothingIsDone() {
+    using namespace std::chrono_literals;
+    session_->setConsentTime(1ms);
+    session_->setRoomClear(true);
+    QVERIFY(session_->isRoomClear());
+    {
+      const DeviceLease lease = session_->leaseDevices(camera);
+      session_->setRoomClear(true);
+      QTest::qWait(20);
+      QVERIFY(session_->isRoomClear());
+    }
+    QSignalSpy told(session_.get(), &Session::devicesChanged);
+    QTRY_VERIFY(!session_->isRoomClear());
+    QVERIFY(!told.isEmpty());
+  }
+
   void nobodyElseIsLetToThem() {
     const DeviceLease lease = session_->leaseDevices(camera);
     QVERIFY_THROWS_EXCEPTION(std::logic_error, session_->leaseDevices(acquire));

@@ -67,9 +67,16 @@ class TestVenueUse : public QObject {
     QVERIFY(VenueUse::isTaken(name.toStdString(), Way::wizard));
   }
 
-  void whoIsKilledUsesNothing() {
+  void whoEndsUsesNothing_data() {
+    QTest::addColumn<bool>("isAsked");
+    QTest::newRow("killed") << false;
+    QTest::newRow("asked to end") << true;
+  }
+  void whoEndsUsesNothing() {
+    QFETCH(bool, isAsked);
     int ready[2];
     QCOMPARE(pipe(ready), 0);
+    QVERIFY(!VenueUse::end(venue_, Way::show));
     const pid_t other = fork();
     if (other == 0) {
       const auto use = VenueUse::take(venue_, Way::show);
@@ -81,9 +88,13 @@ class TestVenueUse : public QObject {
     QCOMPARE(read(ready[0], &answer, 1), 1);
     QCOMPARE(answer, 'y');
     QVERIFY(VenueUse::isTaken(venue_, Way::show));
-    kill(other, SIGKILL);
-    QCOMPARE(waitpid(other, nullptr, 0), other);
+    QVERIFY(!VenueUse::end(venue_, Way::wizard));
+    QVERIFY(isAsked ? VenueUse::end(venue_, Way::show) : kill(other, SIGKILL) == 0);
+    int status = 0;
+    QCOMPARE(waitpid(other, &status, 0), other);
+    QCOMPARE(WTERMSIG(status), isAsked ? SIGTERM : SIGKILL);
     QVERIFY(!VenueUse::isTaken(venue_, Way::show));
+    QVERIFY(!VenueUse::end(venue_, Way::show));
     close(ready[0]);
     close(ready[1]);
   }

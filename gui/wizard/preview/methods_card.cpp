@@ -22,6 +22,7 @@ class MethodsTable : public QTableWidget {
     horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     horizontalHeader()->setSectionResizeMode(note, QHeaderView::Stretch);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setTabKeyNavigation(false);  // Tab leads out of it, arrows from row to row
   }
   void fit() {
     int needed = 0;
@@ -34,6 +35,7 @@ class MethodsTable : public QTableWidget {
   }
   /// Where reading goes from right to left, selectRow() selects nothing.
   void chooseRow(int row) {
+    chosen_ = row;
     selectionModel()->setCurrentIndex(model()->index(row, method),
                                       QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
   }
@@ -43,9 +45,15 @@ class MethodsTable : public QTableWidget {
     QTableWidget::resizeEvent(event);
     fit();
   }
+  /// Rows that were only looked at are not those in use.
+  void focusOutEvent(QFocusEvent* event) override {
+    QTableWidget::focusOutEvent(event);
+    chooseRow(chosen_);
+  }
 
  private:
   static constexpr int cellMargin = 2;
+  int chosen_ = -1;
 };
 
 namespace {

@@ -451,6 +451,30 @@ class TestWizardWindow : public QObject {
     QVERIFY(wizard_->page<PreviewPage>().settings().method == Method::optimum);
   }
 
+  /// Whoever has only keys gets past everything on a page.
+  void tabLeadsAroundEveryPage() {
+    for (std::size_t i = 0; i < wizard_->wizard().count(); ++i) {
+      if (wizard_->wizard().isLocked(i)) continue;
+      wizard_->wizard().go(i);
+      wizard_->window().activateWindow();
+      QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
+      const QWidget* first = wizard_->window().focusWidget();
+      QVERIFY(first != nullptr);
+      QSet<const QWidget*> met;
+      constexpr int most = 200;
+      int keys = 0;
+      do {
+        QTest::keyClick(wizard_->window().focusWidget(), Qt::Key_Tab);
+        met.insert(wizard_->window().focusWidget());
+      } while (wizard_->window().focusWidget() != first && ++keys < most);
+      const QByteArray page = wizard_->wizard().page(i).name().toUtf8();
+      QVERIFY2(keys < most, page.constData());
+      const auto* primary = find<QWidget>("primary");
+      if (primary->isVisible() && primary->isEnabled()) QVERIFY2(met.contains(primary), page.constData());
+    }
+    wizard_->wizard().go(6);
+  }
+
   void theContentIsPlacedByMouseAndKeyboard() {
     PreviewPage& preview = wizard_->page<PreviewPage>();
     auto* view = find<CornerView>("preview-view");
@@ -912,6 +936,18 @@ class TestWizardWindow : public QObject {
     QVERIFY(nudge->sight()->isAtItsPlace());  // somebody did it
     dialog->reject();
     QTRY_VERIFY_WITH_TIMEOUT(dialog.isNull(), patience);
+    QCOMPARE(output.primary()->text(), OutputPage::tr("Take verification photograph"));
+
+    // Left elsewhere, that is not forgotten; nor does it stand once it was put right.
+    NudgeSight seen;
+    seen.offset.isRecognised = true;
+    seen.offset.movement.x = 2.0;
+    output.pushedBack(seen);
+    QCOMPARE(output.primary()->text(), OutputPage::tr("Put the camera back"));
+    QVERIFY(output.status().isHeldUp);
+    QCOMPARE(output.proof().leftElsewhere(), std::optional(2.0));
+    seen.offset.movement.x = 0.1;
+    output.pushedBack(seen);
     QCOMPARE(output.primary()->text(), OutputPage::tr("Take verification photograph"));
     output.close();
   }

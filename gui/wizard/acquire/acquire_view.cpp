@@ -226,8 +226,9 @@ QWidget* inspectorOf(AcquirePage& model) {
 PageView viewOf(AcquirePage& model) {
   PageView view{stageOf(model), inspectorOf(model)};
   QObject::connect(&model, &AcquirePage::nudgeWanted, view.stage, [&model, stage = view.stage] {
-    showNudge(*stage, std::make_unique<Nudge>(model.session(), model.viewBefore()),
-              [&model](bool isAtItsPlace) { model.askAgain(isAtItsPlace); });
+    showNudge(
+        *stage, std::make_unique<Nudge>(model.session(), model.viewBefore()),
+        [&model](const std::optional<NudgeSight>& last) { model.askAgain(last && last->isAtItsPlace()); });
   });
   return view;
 }

@@ -25,6 +25,8 @@ struct NudgeSight {
   bool isAtItsPlace() const {
     return offset.isRecognised && distance() <= nearEnough && tilt() <= 2.0 * nearEnough;
   }
+  /// So far that it matters: twice what is near enough.
+  bool isElsewhere() const { return offset.isRecognised && distance() > 2.0 * nearEnough; }
 };
 
 /// Looks through the first camera, projectors in full light, and compares with the picture of the surface in

@@ -182,7 +182,8 @@ void NudgeDialog::showVerdict() {
            "changed."));
 }
 
-void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge, const std::function<void(bool)>& done) {
+void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge,
+               const std::function<void(const std::optional<NudgeSight>&)>& done) {
   // Another language has replaced that window, and the new one is asked as well.
   if (!above.window()->isVisible()) return;
   Nudge* looking = nudge.release();
@@ -190,8 +191,7 @@ void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge, const std::function
   looking->setParent(dialog);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowModality(Qt::WindowModal);
-  QObject::connect(dialog, &QDialog::finished, looking,
-                   [looking, done] { done(looking->sight() && looking->sight()->isAtItsPlace()); });
+  QObject::connect(dialog, &QDialog::finished, looking, [looking, done] { done(looking->sight()); });
   looking->start();
   dialog->show();
 }

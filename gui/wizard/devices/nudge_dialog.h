@@ -3,6 +3,7 @@
 
 #include <QDialog>
 #include <functional>
+#include <optional>
 
 #include "wizard/devices/nudge.h"
 
@@ -35,8 +36,9 @@ class NudgeDialog : public QDialog {
 };
 
 /// Begins to look, in a dialog before the window of `above`. `done` comes when that is closed and the devices
-/// are free, with whether the camera looks where it looked. Nothing happens
+/// are free, with what the camera saw last, if anything. Nothing happens
 /// before a window that is not shown.
-void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge, const std::function<void(bool)>& done);
+void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge,
+               const std::function<void(const std::optional<NudgeSight>&)>& done);
 
 }  // namespace relucent::gui

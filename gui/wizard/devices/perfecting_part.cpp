@@ -69,6 +69,7 @@ void showState(Remark& remark, const Perfecting& perfecting) {
   const QString vain = vainText(perfecting);
   if (perfecting.isRunning()) {
     const QString taken =
+        Perfecting::tr("Picture: %1").arg(nameOf(perfecting.tried())) + '\n' +
         Perfecting::tr("%n photograph(s) by now. Keep the room as it is.", nullptr, perfecting.photographs());
     return remark.show(
         Remark::Kind::watch, Perfecting::tr("The picture is being perfected"),

@@ -42,6 +42,11 @@ NightsPart::NightsPart(OutputPage& page, QWidget* parent) : QWidget(parent), pag
   column->addWidget(open_);
   connect(open_, &QPushButton::clicked, this, &NightsPart::open);
   connect(&page_.session(), &Session::opened, this, &NightsPart::reload);
+  // Which time it is at, and whether anything is installed.
+  for (auto signal : {&OutputPage::settingsChanged, &OutputPage::resultChanged})
+    connect(&page_, signal, this, [this] {
+      if (nights_.empty() && !isUnreadable_) showLast();
+    });
   connect(&Theme::instance(), &Theme::changed, this, &NightsPart::reload);
   showTime();
   reload();
@@ -65,6 +70,7 @@ void NightsPart::showEvent(QShowEvent* event) {
 
 void NightsPart::reload() {
   nights_.clear();
+  isUnreadable_ = false;
   open_->setIcon(iconOf(Icon::moon, colours().text));
   if (page_.session().isOpen()) {
     try {
@@ -72,10 +78,22 @@ void NightsPart::reload() {
     } catch (const Error&) {
       const Failure failure = failureOf(std::current_exception());
       setPossible(open_, failure.what);
+      isUnreadable_ = true;
       return last_->show(Remark::Kind::warning, failure.what, failure.advice);
     }
   }
+  showLast();
+}
+
+void NightsPart::showLast() {
   setPossible(open_, nights_.empty() ? tr("There was no night yet") : QString());
+  if (nights_.empty() && page_.installedShow() == OutputPage::InstalledShow::thisVenues &&
+      page_.nightAt().isValid())
+    return last_->show(
+        Remark::Kind::watch, tr("There was no night yet"),
+        tr("The installed show has its first one at %1, if it plays by then. Its camera has to stay "
+           "where it is.")
+            .arg(QLocale().toString(page_.nightAt(), QLocale::ShortFormat)));
   if (nights_.empty())
     return last_->show(
         Remark::Kind::watch, tr("There was no night yet"),

@@ -27,11 +27,13 @@ class NightsPart : public QWidget {
 
  private:
   void reload();
+  void showLast();
   void showTime();
   void open();
 
   OutputPage& page_;
   std::vector<pipeline::NightRecord> nights_;
+  bool isUnreadable_ = false;
   Remark* last_;
   QLabel* what_;
   QComboBox* when_;

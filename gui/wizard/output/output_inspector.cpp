@@ -119,6 +119,12 @@ void showProof(Remark& remark, const OutputPage& page) {
   if (proof == nullptr)
     return remark.show(Remark::Kind::watch, OutputPage::tr("Not photographed yet"),
                        OutputPage::tr("One photograph shows whether the surface looks as predicted."));
+  if (const auto pixels = page.proof().leftElsewhere())
+    return remark.show(
+        Remark::Kind::warning, OutputPage::tr("The camera looks elsewhere"),
+        OutputPage::tr("It was left %1 px from where it looked when it was measured. Put it back, or "
+                       "repair the calibration.")
+            .arg(decimalText(*pixels, 1)));
   if (page.proof().wasPushedBack())
     return remark.show(Remark::Kind::watch, OutputPage::tr("The camera is back at its place"),
                        OutputPage::tr("Take the photograph again: the last one was taken before."));
@@ -182,7 +188,9 @@ void showDrift(Remark& remark, const OutputProof& proof, bool hasMoved) {
     meaning += '\n' + (drift->ambient > 0.0 ? OutputPage::tr("The room is brighter by %1 of full light.")
                                             : OutputPage::tr("The room is darker by %1 of full light."))
                           .arg(percentText(std::abs(drift->ambient)));
-  if (std::abs(drift->lamp - 1.0) >= leastLamp)
+  // Where the view has changed, what of its light is missing says nothing of the projector.
+  constexpr double mostChanged = 0.01;
+  if (!hasMoved && drift->changedShare < mostChanged && std::abs(drift->lamp - 1.0) >= leastLamp)
     meaning +=
         '\n' +
         OutputPage::tr("The projector gives %1 of the light that it gave.").arg(percentText(drift->lamp));
@@ -193,12 +201,23 @@ void showDrift(Remark& remark, const OutputProof& proof, bool hasMoved) {
     case acquisition::Verdict::stillGood:
       return remark.show(Remark::Kind::good, OutputPage::tr("The measurement still holds"), meaning);
     case acquisition::Verdict::remeasure:
-      return remark.show(Remark::Kind::warning,
-                         OutputPage::tr("Something has changed. Repair the calibration."), meaning);
+      return remark.show(
+          Remark::Kind::warning,
+          acquisition::isRoomChanged(drift->ambient)
+              ? OutputPage::tr(
+                    "The room's light has changed. Restore it and check again, or repair the calibration.")
+              : OutputPage::tr("Something has changed. Repair the calibration."),
+          meaning);
     case acquisition::Verdict::startAgain:
       return remark.show(
           Remark::Kind::failed,
-          OutputPage::tr("Hardly anything fits. Put the camera back, or aim and measure again."), meaning);
+          acquisition::isLightSeen(drift->lamp)
+              ? OutputPage::tr(
+                    "Hardly anything fits. Put the camera back or repair the calibration; if neither "
+                    "helps, aim and measure again.")
+              : OutputPage::tr("Almost nothing of the projector's light is seen. Look at the lens and at the "
+                               "projector, then check again."),
+          meaning);
   }
 }
 
@@ -233,7 +252,7 @@ QWidget* proofPart(OutputPage& page) {
   QObject::connect(push, &QPushButton::clicked, &page, &OutputPage::pushBack);
   QObject::connect(&page, &OutputPage::nudgeWanted, part, [part, &page] {
     showNudge(*part, std::make_unique<Nudge>(page.session(), OutputPage::stepName),
-              [&page](bool isAtItsPlace) { page.pushedBack(isAtItsPlace); });
+              [&page](const std::optional<NudgeSight>& last) { page.pushedBack(last); });
   });
   auto refresh = [=, &page] {
     showProof(*found, page);
@@ -254,7 +273,12 @@ QString installedText(const OutputPage& page) {
   using InstalledShow = OutputPage::InstalledShow;
   switch (page.installedShow()) {
     case InstalledShow::thisVenues:
-      return OutputPage::tr("Installed. The show starts at the next log-in, without camera or wizard.") +
+      return (page.nightAt().isValid()
+                  ? OutputPage::tr(
+                        "Installed. The show starts at the next log-in, without wizard. The camera stays: "
+                        "at night it looks after the picture.")
+                  : OutputPage::tr(
+                        "Installed. The show starts at the next log-in, without camera or wizard.")) +
              ' ' + OutputPage::tr("It plays this playlist with the measurement that is in use by then.") +
              ' ' + OutputPage::tr("To end it, hold Esc for two seconds at the projector's screen.");
     case InstalledShow::anotherVenues:

@@ -138,6 +138,7 @@ StepStatus OutputPage::status() const {
                              : showsChart() ? tr("Test chart")
                              : isFrozen()   ? tr("Frozen")
                                             : tr("Playing")};
+  if (session_.isShownElsewhere()) return {StepState::busy, tr("Another program plays")};
   if (proof_.isOutOfDate()) return {StepState::outOfDate, tr("Proof out of date")};
   if (isInstalled()) return {StepState::done, tr("Show installed")};
   return {};
@@ -210,14 +211,16 @@ QString OutputPage::hint() const {
       case OutputProof::Next::measureAgain:
         return tr("Something has changed since it was measured. Measure again, then install.");
       case OutputProof::Next::aimAgain:
-        return tr("Camera or projector stand elsewhere. Put the camera back, or aim and measure again.");
+        return tr(
+            "Hardly anything fits. Put the camera back, repair the calibration, or aim and measure again.");
       case OutputProof::Next::install:
         return playingHint();
     }
   }
   if (isOnPageOnly()) return tr("This rehearsal plays on this page only: nothing is projected.");
   if (coversOperator()) return tr("The output will cover this window. Esc closes the output.");
-  return tr("Nothing is projected before you open the output.");
+  return session_.isShownElsewhere() ? tr("Another program plays a show of this venue.")
+                                     : tr("Nothing is projected before you open the output.");
 }
 
 /// While nothing stands against the show: what it does, in one voice with the rail.
@@ -232,6 +235,7 @@ QString OutputPage::playingHint() const {
 }
 
 void OutputPage::updateCommands() {
+  DevicePage::updateCommands();
   open_->show(tr("Open output"), !projectorWithoutScreen() && !playlist_.isEmpty() &&
                                      !projection_.isOpening() && session_.areDevicesFree());
   const bool isProved = proof_.next() == OutputProof::Next::install;
@@ -303,6 +307,7 @@ std::optional<Banner> OutputPage::banner() const {
   if (isScreenLost())
     return Banner{Banner::Kind::amber, tr("The projector's screen is unplugged"),
                   tr("Nothing is lost. Plug it in again: the show comes back by itself.")};
+  if (auto beside = besideAnotherShow()) return beside;
   if (isCovered())
     return Banner{Banner::Kind::information,
                   tr("The projector shows the light of another step: %1").arg(session_.devicesUserName()),

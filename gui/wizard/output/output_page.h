@@ -6,6 +6,7 @@
 #include "output/output_playlist.h"
 #include "output/output_projection.h"
 #include "wizard/devices/device_page.h"
+#include "wizard/devices/nudge.h"
 #include "wizard/devices/perfecting.h"
 #include "wizard/output/output_proof.h"
 #include "wizard/session/results_beside.h"
@@ -137,7 +138,7 @@ class OutputPage : public DevicePage {
   /// Shows full light and looks, until pushedBack(): nudgeWanted() asks for what shows that.
   void pushBack();
   /// What the devices were looked at with is gone. `atItsPlace`: the camera looks where it looked.
-  void pushedBack(bool atItsPlace);
+  void pushedBack(const std::optional<NudgeSight>& last);
   /// Writes the report and lets the desktop show it.
   void report();
   /// Where it is; empty: not written since the calibration was opened.

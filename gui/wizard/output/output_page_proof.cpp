@@ -88,8 +88,9 @@ void OutputPage::pushBack() {
   whileClosed([this] { Q_EMIT nudgeWanted(); });
 }
 
-void OutputPage::pushedBack(bool atItsPlace) {
-  if (atItsPlace) proof_.cameraPushedBack();
+void OutputPage::pushedBack(const std::optional<NudgeSight>& last) {
+  if (last && last->isAtItsPlace()) proof_.cameraPushedBack();
+  if (last && last->isElsewhere()) proof_.cameraLeft(last->distance());
   proofEnded();
 }
 

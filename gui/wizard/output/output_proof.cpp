@@ -58,6 +58,7 @@ OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent
     repair_.reset();
     found_ = nullptr;
     pushedBack_ = endedUnclear_ = false;
+    leftElsewhere_.reset();
     Q_EMIT changed();
   });
   connect(&session_, &Session::stepsChanged, this, &OutputProof::look);
@@ -114,6 +115,7 @@ const pipeline::DriftRecord* OutputProof::newestDrift() const {
 
 OutputProof::Next OutputProof::next() const {
   using acquisition::Verdict;
+  if (leftElsewhere()) return Next::pushBack;
   if (pushedBack_) return Next::photograph;
   const pipeline::DriftRecord* drift = newestDrift();
   if (drift != nullptr && drift->verdict == Verdict::startAgain) return Next::aimAgain;
@@ -130,10 +132,25 @@ OutputProof::Next OutputProof::next() const {
   return isMoved ? Next::pushBack : Next::checkDrift;
 }
 
+void OutputProof::cameraLeft(double pixels) {
+  leftElsewhere_ = pixels;
+  leftBy_ = measurementOf(session_);
+  pushedBack_ = false;
+  Q_EMIT changed();
+}
+
+std::optional<double> OutputProof::leftElsewhere() const {
+  return leftBy_ == measurementOf(session_) ? leftElsewhere_ : std::nullopt;
+}
+
 void OutputProof::cameraPushedBack() {
+  const bool wasLeft = std::exchange(leftElsewhere_, std::nullopt).has_value();
   pushedBack_ = (current() != nullptr && !current()->isAsPredicted()) ||
                 (drift_ && drift_->verdict != acquisition::Verdict::stillGood);
-  if (!pushedBack_) return;
+  if (!pushedBack_) {
+    if (wasLeft) Q_EMIT changed();
+    return;
+  }
   drift_.reset();
   forgetDrift(proofFolder(session_.path()));
   Q_EMIT changed();
@@ -271,7 +288,10 @@ void OutputProof::finished() {
     }
     repairOf_ = measurementOf(session_);
   }
-  if (done && (found->proof || found->drift)) pushedBack_ = false;
+  if (done && work_ != Work::report) {
+    pushedBack_ = false;
+    leftElsewhere_.reset();
+  }
   Q_EMIT changed();
   Q_EMIT ended(work_);
   if (done && !found->report.isEmpty()) Q_EMIT reported(found->report);

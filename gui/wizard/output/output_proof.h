@@ -81,6 +81,10 @@ class OutputProof : public QObject {
   void cameraPushedBack();
   /// It was, since the last photograph.
   bool wasPushedBack() const { return pushedBack_; }
+  /// It was seen to look so many pixels elsewhere, and left there.
+  void cameraLeft(double pixels);
+  /// By so much, pixels; none: nobody has seen that since the last photograph.
+  std::optional<double> leftElsewhere() const;
 
   /// `picture`, a file or resource, as a show has it on that canvas: perfected, if it is.
   void photograph(const QString& picture, const Canvas& canvas);
@@ -127,6 +131,8 @@ class OutputProof : public QObject {
   std::string repairOf_;  // the measurement that `repair_` left
   bool wasOutOfDate_ = false;
   bool pushedBack_ = false;  // since the last photograph
+  std::optional<double> leftElsewhere_;
+  std::string leftBy_;  // the measurement by which that is elsewhere
   bool endedUnclear_ = false;
   struct Found;
   std::shared_ptr<Found> found_;  // by the job

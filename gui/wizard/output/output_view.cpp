@@ -304,8 +304,10 @@ class OutputStage : public QWidget {
   QString takenText() const {
     if (!shown_) return {};
     const QString when = QLocale().toString(shown_->taken.time(), QLocale::ShortFormat);
-    return page_.proof().isOutOfDate() ? OutputPage::tr("taken %1, out of date").arg(when)
-                                       : OutputPage::tr("taken %1").arg(when);
+    const QString taken = page_.proof().isOutOfDate() ? OutputPage::tr("taken %1, out of date").arg(when)
+                                                      : OutputPage::tr("taken %1").arg(when);
+    if (shown_->picture.isEmpty()) return taken;
+    return QString("%1, %2").arg(isolated(OutputPlaylist::nameOf(shown_->picture)), taken);
   }
   /// Over the projector's picture: how it goes.
   QString figures() const {

@@ -5008,8 +5008,32 @@
         <translation>يشغّل برنامج آخر عرضًا لهذا الموقع</translation>
     </message>
     <message>
-        <source>End it before light is measured: its pictures may come between the patterns.</source>
-        <translation>أنهِه قبل قياس الضوء: فقد تظهر صوره بين الأنماط.</translation>
+        <source>The show plays on.</source>
+        <translation>العرض مستمر.</translation>
+    </message>
+    <message>
+        <source>End that show</source>
+        <translation>إنهاء ذلك العرض</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>إنهاء العرض</translation>
+    </message>
+    <message>
+        <source>Let it play</source>
+        <translation>دعه يعمل</translation>
+    </message>
+    <message>
+        <source>The show that another program plays of this venue: the projector&apos;s screen goes dark.</source>
+        <translation>العرض الذي يشغّله برنامج آخر لهذا الموقع: تنطفئ شاشة جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. An installed show starts again at the next log-in.</source>
+        <translation>يبقى الموقع وقائمة التشغيل. ويبدأ العرض المثبَّت من جديد عند تسجيل الدخول التالي.</translation>
+    </message>
+    <message>
+        <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
+        <translation>تظهر صوره على جهاز العرض مهما عُرض من هنا، وقد تأتي بين الأنماط التي تُقاس.</translation>
     </message>
 </context>
 <context>
@@ -5802,6 +5826,10 @@ projector %2</source>
         <source>No show of a rehearsal is looked after.</source>
         <translation>لا يُعتنى بعرض التدريب.</translation>
     </message>
+    <message>
+        <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
+        <translation>للعرض المثبَّت أول ليلة عند ⁨%1⁩، إن كان يعمل حينها. يجب أن تبقى كاميرته في مكانها.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6404,10 +6432,6 @@ projector %2</source>
         <translation>أعد الكاميرا إلى مكانها</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
-        <translation>الكاميرا أو جهاز العرض في موضع آخر. أعد الكاميرا إلى مكانها، أو وجّهها وقِس من جديد.</translation>
-    </message>
-    <message>
         <source>On this page only</source>
         <translation>في هذه الصفحة فقط</translation>
     </message>
@@ -6892,10 +6916,6 @@ projector %2</source>
         <translation>يُستخدم القياس كما كان. أعد الإصلاح عندما تكون القاعة خالية.</translation>
     </message>
     <message>
-        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
-        <translation>لا يكاد شيء يتطابق. أعد الكاميرا إلى مكانها، أو وجّه وقِس من جديد.</translation>
-    </message>
-    <message>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>الخرج مغلق. تُعرض صورة لتصويرها.</translation>
     </message>
@@ -6934,6 +6954,42 @@ projector %2</source>
     <message>
         <source>The output is closed here. Another program plays a show of this venue.</source>
         <translation>الخرج مغلق هنا. يشغّل برنامج آخر عرضًا لهذا الموقع.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back or repair the calibration; if neither helps, aim and measure again.</source>
+        <translation>لا يكاد شيء يتطابق. أعد الكاميرا إلى مكانها أو أصلح المعايرة؛ وإن لم ينفع ذلك فوجّه وقِس من جديد.</translation>
+    </message>
+    <message>
+        <source>Almost nothing of the projector&apos;s light is seen. Look at the lens and at the projector, then check again.</source>
+        <translation>لا يُرى من ضوء جهاز العرض شيء تقريبًا. افحص العدسة وجهاز العرض، ثم أعد الفحص.</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>مثبَّت. يبدأ العرض عند تسجيل الدخول التالي من دون المعالج. تبقى الكاميرا في مكانها: فهي تعتني بالصورة ليلًا.</translation>
+    </message>
+    <message>
+        <source>Another program plays</source>
+        <translation>برنامج آخر يعرض</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, repair the calibration, or aim and measure again.</source>
+        <translation>لا يكاد شيء يتطابق. أعد الكاميرا إلى مكانها، أو أصلح المعايرة، أو وجّه وقِس من جديد.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue.</source>
+        <translation>يشغّل برنامج آخر عرضًا لهذا الموقع.</translation>
+    </message>
+    <message>
+        <source>The room&apos;s light has changed. Restore it and check again, or repair the calibration.</source>
+        <translation>تغيّرت إضاءة القاعة. أعِدها كما كانت وافحص من جديد، أو أصلح المعايرة.</translation>
+    </message>
+    <message>
+        <source>The camera looks elsewhere</source>
+        <translation>الكاميرا موجَّهة إلى مكان آخر</translation>
+    </message>
+    <message>
+        <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
+        <translation>تُركت على بُعد ⁨%1⁩ بكسل من حيث كانت موجَّهة عند القياس. أعِدها إلى مكانها، أو أصلح المعايرة.</translation>
     </message>
 </context>
 <context>
@@ -9788,10 +9844,24 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>session.cannot-end-show</name>
+    <message>
+        <source>the other program may not be ended from here</source>
+        <translation>لا يجوز إنهاء البرنامج الآخر من هنا</translation>
+    </message>
+</context>
+<context>
     <name>session.close-other-window</name>
     <message>
         <source>go on there, or close it there first</source>
         <translation>تابع هناك، أو أغلقه هناك أولًا</translation>
+    </message>
+</context>
+<context>
+    <name>session.end-show-itself</name>
+    <message>
+        <source>hold Esc on the projector&apos;s picture for two seconds</source>
+        <translation>اضغط Esc مطوّلًا ثانيتين على صورة جهاز العرض</translation>
     </message>
 </context>
 <context>

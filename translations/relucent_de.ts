@@ -4892,8 +4892,32 @@
         <translation>Ein anderes Programm spielt eine Show dieses Spielorts</translation>
     </message>
     <message>
-        <source>End it before light is measured: its pictures may come between the patterns.</source>
-        <translation>Beenden Sie sie, bevor Licht gemessen wird: Ihre Bilder können zwischen die Muster geraten.</translation>
+        <source>The show plays on.</source>
+        <translation>Die Show läuft weiter.</translation>
+    </message>
+    <message>
+        <source>End that show</source>
+        <translation>Diese Show beenden</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>Show beenden</translation>
+    </message>
+    <message>
+        <source>Let it play</source>
+        <translation>Weiterspielen lassen</translation>
+    </message>
+    <message>
+        <source>The show that another program plays of this venue: the projector&apos;s screen goes dark.</source>
+        <translation>Die Show dieses Spielorts, die ein anderes Programm spielt: Der Bildschirm des Projektors wird dunkel.</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. An installed show starts again at the next log-in.</source>
+        <translation>Spielort und Playlist bleiben. Eine installierte Show startet bei der nächsten Anmeldung wieder.</translation>
+    </message>
+    <message>
+        <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
+        <translation>Ihre Bilder leuchten auf dem Projektor, was auch immer von hier gezeigt wird, und können zwischen gemessene Muster geraten.</translation>
     </message>
 </context>
 <context>
@@ -5662,6 +5686,10 @@ Projektor %2</translation>
         <source>No show of a rehearsal is looked after.</source>
         <translation>Für die Show einer Probe wird nicht gesorgt.</translation>
     </message>
+    <message>
+        <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
+        <translation>Die installierte Show hat ihre erste um %1, wenn sie dann läuft. Ihre Kamera muss bleiben, wo sie ist.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6260,10 +6288,6 @@ Projektor %2</translation>
         <translation>Kamera zurückstellen</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
-        <translation>Kamera oder Projektor stehen anders. Stellen Sie die Kamera zurück, oder richten Sie neu aus und messen Sie erneut.</translation>
-    </message>
-    <message>
         <source>On this page only</source>
         <translation>Nur auf dieser Seite</translation>
     </message>
@@ -6748,10 +6772,6 @@ Projektor %2</translation>
         <translation>Die Messung wird wie zuvor verwendet. Reparieren Sie erneut, wenn der Raum geräumt ist.</translation>
     </message>
     <message>
-        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
-        <translation>Kaum etwas passt noch. Stellen Sie die Kamera zurück, oder richten Sie aus und messen Sie neu.</translation>
-    </message>
-    <message>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>Die Ausgabe ist geschlossen. Ein Bild zum Fotografieren wird projiziert.</translation>
     </message>
@@ -6790,6 +6810,42 @@ Projektor %2</translation>
     <message>
         <source>The output is closed here. Another program plays a show of this venue.</source>
         <translation>Die Ausgabe ist hier geschlossen. Ein anderes Programm spielt eine Show dieses Spielorts.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back or repair the calibration; if neither helps, aim and measure again.</source>
+        <translation>Kaum etwas passt. Stellen Sie die Kamera zurück oder reparieren Sie die Kalibrierung; hilft beides nicht, richten Sie aus und messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>Almost nothing of the projector&apos;s light is seen. Look at the lens and at the projector, then check again.</source>
+        <translation>Vom Licht des Projektors ist fast nichts zu sehen. Sehen Sie nach Objektiv und Projektor, dann prüfen Sie noch einmal.</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>Installiert. Die Show startet bei der nächsten Anmeldung, ohne Assistenten. Die Kamera bleibt: Nachts sieht sie nach dem Bild.</translation>
+    </message>
+    <message>
+        <source>Another program plays</source>
+        <translation>Anderes Programm spielt</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, repair the calibration, or aim and measure again.</source>
+        <translation>Kaum etwas passt. Stellen Sie die Kamera zurück, reparieren Sie die Kalibrierung, oder richten Sie aus und messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue.</source>
+        <translation>Ein anderes Programm spielt eine Show dieses Spielorts.</translation>
+    </message>
+    <message>
+        <source>The room&apos;s light has changed. Restore it and check again, or repair the calibration.</source>
+        <translation>Das Raumlicht hat sich geändert. Stellen Sie es wieder her und prüfen Sie noch einmal, oder reparieren Sie die Kalibrierung.</translation>
+    </message>
+    <message>
+        <source>The camera looks elsewhere</source>
+        <translation>Die Kamera sieht woandershin</translation>
+    </message>
+    <message>
+        <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
+        <translation>Sie blieb %1 px neben der Stelle stehen, auf die sie bei der Messung sah. Stellen Sie sie zurück oder reparieren Sie die Kalibrierung.</translation>
     </message>
 </context>
 <context>
@@ -9588,10 +9644,24 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>session.cannot-end-show</name>
+    <message>
+        <source>the other program may not be ended from here</source>
+        <translation>das andere Programm darf von hier nicht beendet werden</translation>
+    </message>
+</context>
+<context>
     <name>session.close-other-window</name>
     <message>
         <source>go on there, or close it there first</source>
         <translation>arbeiten Sie dort weiter, oder schließen Sie ihn dort zuerst</translation>
+    </message>
+</context>
+<context>
+    <name>session.end-show-itself</name>
+    <message>
+        <source>hold Esc on the projector&apos;s picture for two seconds</source>
+        <translation>halten Sie zwei Sekunden lang Esc am Bild des Projektors</translation>
     </message>
 </context>
 <context>

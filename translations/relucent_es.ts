@@ -4892,8 +4892,32 @@
         <translation>Otro programa está reproduciendo un show de este lugar</translation>
     </message>
     <message>
-        <source>End it before light is measured: its pictures may come between the patterns.</source>
-        <translation>Termínelo antes de medir la luz: sus imágenes pueden aparecer entre los patrones.</translation>
+        <source>The show plays on.</source>
+        <translation>El show continúa.</translation>
+    </message>
+    <message>
+        <source>End that show</source>
+        <translation>Terminar ese show</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>Terminar el show</translation>
+    </message>
+    <message>
+        <source>Let it play</source>
+        <translation>Dejar que siga</translation>
+    </message>
+    <message>
+        <source>The show that another program plays of this venue: the projector&apos;s screen goes dark.</source>
+        <translation>El show de este lugar que reproduce otro programa: la pantalla del proyector se oscurece.</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. An installed show starts again at the next log-in.</source>
+        <translation>El lugar y la lista se conservan. Un show instalado vuelve a empezar en el próximo inicio de sesión.</translation>
+    </message>
+    <message>
+        <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
+        <translation>Sus imágenes se ven en el proyector, se muestre lo que se muestre desde aquí, y pueden aparecer entre los patrones que se miden.</translation>
     </message>
 </context>
 <context>
@@ -5662,6 +5686,10 @@ proyector %2</translation>
         <source>No show of a rehearsal is looked after.</source>
         <translation>El show de un ensayo no se cuida.</translation>
     </message>
+    <message>
+        <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
+        <translation>El show instalado tiene la primera a las %1, si para entonces está en marcha. Su cámara tiene que quedarse donde está.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6260,10 +6288,6 @@ proyector %2</translation>
         <translation>Recolocar la cámara</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
-        <translation>La cámara o el proyector están en otro sitio. Recoloque la cámara, o apunte y mida de nuevo.</translation>
-    </message>
-    <message>
         <source>On this page only</source>
         <translation>Solo en esta página</translation>
     </message>
@@ -6748,10 +6772,6 @@ proyector %2</translation>
         <translation>La medición se usa como antes. Repare de nuevo cuando la sala esté despejada.</translation>
     </message>
     <message>
-        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
-        <translation>Casi nada coincide. Recoloque la cámara, o apunte y mida de nuevo.</translation>
-    </message>
-    <message>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>La salida está cerrada. Se proyecta una imagen para fotografiarla.</translation>
     </message>
@@ -6790,6 +6810,42 @@ proyector %2</translation>
     <message>
         <source>The output is closed here. Another program plays a show of this venue.</source>
         <translation>La salida está cerrada aquí. Otro programa está reproduciendo un show de este lugar.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back or repair the calibration; if neither helps, aim and measure again.</source>
+        <translation>Casi nada encaja. Devuelva la cámara a su sitio o repare la calibración; si nada ayuda, apunte y mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>Almost nothing of the projector&apos;s light is seen. Look at the lens and at the projector, then check again.</source>
+        <translation>Apenas se ve luz del proyector. Revise el objetivo y el proyector, y compruebe de nuevo.</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>Instalado. El show empieza en el próximo inicio de sesión, sin asistente. La cámara se queda: de noche cuida la imagen.</translation>
+    </message>
+    <message>
+        <source>Another program plays</source>
+        <translation>Otro programa reproduce</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, repair the calibration, or aim and measure again.</source>
+        <translation>Casi nada encaja. Devuelva la cámara a su sitio, repare la calibración, o apunte y mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue.</source>
+        <translation>Otro programa está reproduciendo un show de este lugar.</translation>
+    </message>
+    <message>
+        <source>The room&apos;s light has changed. Restore it and check again, or repair the calibration.</source>
+        <translation>La luz de la sala ha cambiado. Restablézcala y compruebe de nuevo, o repare la calibración.</translation>
+    </message>
+    <message>
+        <source>The camera looks elsewhere</source>
+        <translation>La cámara mira a otro sitio</translation>
+    </message>
+    <message>
+        <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
+        <translation>Quedó a %1 px de donde miraba al medir. Devuélvala a su sitio o repare la calibración.</translation>
     </message>
 </context>
 <context>
@@ -9588,10 +9644,24 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>session.cannot-end-show</name>
+    <message>
+        <source>the other program may not be ended from here</source>
+        <translation>el otro programa no puede terminarse desde aquí</translation>
+    </message>
+</context>
+<context>
     <name>session.close-other-window</name>
     <message>
         <source>go on there, or close it there first</source>
         <translation>continúe allí, o ciérrelo allí primero</translation>
+    </message>
+</context>
+<context>
+    <name>session.end-show-itself</name>
+    <message>
+        <source>hold Esc on the projector&apos;s picture for two seconds</source>
+        <translation>mantenga pulsado Esc dos segundos en la imagen del proyector</translation>
     </message>
 </context>
 <context>

@@ -4892,8 +4892,32 @@
         <translation>Un autre programme diffuse ce lieu</translation>
     </message>
     <message>
-        <source>End it before light is measured: its pictures may come between the patterns.</source>
-        <translation>Arrêtez-la avant de mesurer la lumière&#xa0;: ses images peuvent se glisser entre les motifs.</translation>
+        <source>The show plays on.</source>
+        <translation>La diffusion continue.</translation>
+    </message>
+    <message>
+        <source>End that show</source>
+        <translation>Arrêter cette diffusion</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>Arrêter la diffusion</translation>
+    </message>
+    <message>
+        <source>Let it play</source>
+        <translation>La laisser continuer</translation>
+    </message>
+    <message>
+        <source>The show that another program plays of this venue: the projector&apos;s screen goes dark.</source>
+        <translation>La diffusion de ce lieu par un autre programme&#xa0;: l’écran du projecteur devient noir.</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. An installed show starts again at the next log-in.</source>
+        <translation>Le lieu et la liste restent. Une diffusion installée redémarre à la prochaine ouverture de session.</translation>
+    </message>
+    <message>
+        <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
+        <translation>Ses images sont projetées quoi qu’on montre d’ici, et peuvent se glisser entre les motifs mesurés.</translation>
     </message>
 </context>
 <context>
@@ -5662,6 +5686,10 @@ projecteur %2</translation>
         <source>No show of a rehearsal is looked after.</source>
         <translation>La diffusion d’une répétition n’est pas suivie.</translation>
     </message>
+    <message>
+        <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
+        <translation>La diffusion installée a sa première à %1, si elle tourne à ce moment-là. Sa caméra doit rester où elle est.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6260,10 +6288,6 @@ projecteur %2</translation>
         <translation>Replacer la caméra</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
-        <translation>La caméra ou le projecteur est ailleurs. Replacez la caméra, ou visez et mesurez à nouveau.</translation>
-    </message>
-    <message>
         <source>On this page only</source>
         <translation>Sur cette page seulement</translation>
     </message>
@@ -6748,10 +6772,6 @@ projecteur %2</translation>
         <translation>La mesure est utilisée comme avant. Recommencez la réparation quand la salle sera évacuée.</translation>
     </message>
     <message>
-        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
-        <translation>Presque rien ne correspond. Replacez la caméra, ou cadrez et remesurez.</translation>
-    </message>
-    <message>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>La sortie est fermée. Une image à photographier est projetée.</translation>
     </message>
@@ -6790,6 +6810,42 @@ projecteur %2</translation>
     <message>
         <source>The output is closed here. Another program plays a show of this venue.</source>
         <translation>La sortie est fermée ici. Un autre programme diffuse ce lieu.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back or repair the calibration; if neither helps, aim and measure again.</source>
+        <translation>Presque rien ne correspond. Remettez la caméra en place ou réparez le calibrage&#xa0;; si rien n’aide, visez et mesurez à nouveau.</translation>
+    </message>
+    <message>
+        <source>Almost nothing of the projector&apos;s light is seen. Look at the lens and at the projector, then check again.</source>
+        <translation>On ne voit presque rien de la lumière du projecteur. Regardez l’objectif et le projecteur, puis vérifiez à nouveau.</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>Installée. La diffusion démarre à la prochaine ouverture de session, sans assistant. La caméra reste&#xa0;: la nuit, elle veille sur l’image.</translation>
+    </message>
+    <message>
+        <source>Another program plays</source>
+        <translation>Un autre programme diffuse</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, repair the calibration, or aim and measure again.</source>
+        <translation>Presque rien ne correspond. Remettez la caméra en place, réparez le calibrage, ou visez et mesurez à nouveau.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue.</source>
+        <translation>Un autre programme diffuse ce lieu.</translation>
+    </message>
+    <message>
+        <source>The room&apos;s light has changed. Restore it and check again, or repair the calibration.</source>
+        <translation>La lumière de la salle a changé. Rétablissez-la et vérifiez à nouveau, ou réparez le calibrage.</translation>
+    </message>
+    <message>
+        <source>The camera looks elsewhere</source>
+        <translation>La caméra regarde ailleurs</translation>
+    </message>
+    <message>
+        <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
+        <translation>Elle est restée à %1 px de sa visée lors de la mesure. Remettez-la en place ou réparez le calibrage.</translation>
     </message>
 </context>
 <context>
@@ -9588,10 +9644,24 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>session.cannot-end-show</name>
+    <message>
+        <source>the other program may not be ended from here</source>
+        <translation>l’autre programme ne peut pas être arrêté d’ici</translation>
+    </message>
+</context>
+<context>
     <name>session.close-other-window</name>
     <message>
         <source>go on there, or close it there first</source>
         <translation>continuez là-bas, ou fermez-le d’abord là-bas</translation>
+    </message>
+</context>
+<context>
+    <name>session.end-show-itself</name>
+    <message>
+        <source>hold Esc on the projector&apos;s picture for two seconds</source>
+        <translation>maintenez Échap deux secondes sur l’image du projecteur</translation>
     </message>
 </context>
 <context>

@@ -4892,8 +4892,32 @@
         <translation>Un altro programma sta riproducendo uno show di questo luogo</translation>
     </message>
     <message>
-        <source>End it before light is measured: its pictures may come between the patterns.</source>
-        <translation>Va terminato prima di misurare la luce: le sue immagini possono comparire tra i motivi.</translation>
+        <source>The show plays on.</source>
+        <translation>Lo show continua.</translation>
+    </message>
+    <message>
+        <source>End that show</source>
+        <translation>Termina quello show</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>Termina lo show</translation>
+    </message>
+    <message>
+        <source>Let it play</source>
+        <translation>Lascialo continuare</translation>
+    </message>
+    <message>
+        <source>The show that another program plays of this venue: the projector&apos;s screen goes dark.</source>
+        <translation>Lo show di questo luogo riprodotto da un altro programma: lo schermo del proiettore diventa nero.</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. An installed show starts again at the next log-in.</source>
+        <translation>Luogo e playlist restano. Uno show installato riparte al prossimo accesso.</translation>
+    </message>
+    <message>
+        <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
+        <translation>Le sue immagini sono sul proiettore qualunque cosa si mostri da qui, e possono comparire tra i motivi misurati.</translation>
     </message>
 </context>
 <context>
@@ -5662,6 +5686,10 @@ proiettore %2</translation>
         <source>No show of a rehearsal is looked after.</source>
         <translation>Lo show di una prova non viene curato.</translation>
     </message>
+    <message>
+        <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
+        <translation>Lo show installato ha la prima alle %1, se per allora è in corso. La sua fotocamera deve restare dov’è.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6260,10 +6288,6 @@ proiettore %2</translation>
         <translation>Rimetti a posto la fotocamera</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
-        <translation>Fotocamera o proiettore stanno altrove. Rimettere a posto la fotocamera, oppure puntare e misurare di nuovo.</translation>
-    </message>
-    <message>
         <source>On this page only</source>
         <translation>Solo su questa pagina</translation>
     </message>
@@ -6748,10 +6772,6 @@ proiettore %2</translation>
         <translation>La misura resta in uso come prima. Riparare di nuovo quando la sala è sgombra.</translation>
     </message>
     <message>
-        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
-        <translation>Quasi nulla corrisponde. Rimettere a posto la fotocamera, oppure puntare e misurare di nuovo.</translation>
-    </message>
-    <message>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>L’uscita è chiusa. Si proietta un’immagine da fotografare.</translation>
     </message>
@@ -6790,6 +6810,42 @@ proiettore %2</translation>
     <message>
         <source>The output is closed here. Another program plays a show of this venue.</source>
         <translation>L’uscita è chiusa qui. Un altro programma sta riproducendo uno show di questo luogo.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back or repair the calibration; if neither helps, aim and measure again.</source>
+        <translation>Quasi nulla corrisponde. Rimettere la fotocamera al suo posto o riparare la calibrazione; se non basta, puntare e misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Almost nothing of the projector&apos;s light is seen. Look at the lens and at the projector, then check again.</source>
+        <translation>Della luce del proiettore non si vede quasi nulla. Controllare obiettivo e proiettore, poi verificare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>Installato. Lo show parte al prossimo accesso, senza procedura guidata. La fotocamera resta: di notte bada all’immagine.</translation>
+    </message>
+    <message>
+        <source>Another program plays</source>
+        <translation>Riproduce un altro programma</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, repair the calibration, or aim and measure again.</source>
+        <translation>Quasi nulla corrisponde. Rimettere la fotocamera al suo posto, riparare la calibrazione, oppure puntare e misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue.</source>
+        <translation>Un altro programma sta riproducendo uno show di questo luogo.</translation>
+    </message>
+    <message>
+        <source>The room&apos;s light has changed. Restore it and check again, or repair the calibration.</source>
+        <translation>La luce della sala è cambiata. Ripristinarla e verificare di nuovo, oppure riparare la calibrazione.</translation>
+    </message>
+    <message>
+        <source>The camera looks elsewhere</source>
+        <translation>La fotocamera guarda altrove</translation>
+    </message>
+    <message>
+        <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
+        <translation>È rimasta a %1 px da dove guardava durante la misura. Rimetterla al suo posto o riparare la calibrazione.</translation>
     </message>
 </context>
 <context>
@@ -9588,10 +9644,24 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>session.cannot-end-show</name>
+    <message>
+        <source>the other program may not be ended from here</source>
+        <translation>l’altro programma non può essere terminato da qui</translation>
+    </message>
+</context>
+<context>
     <name>session.close-other-window</name>
     <message>
         <source>go on there, or close it there first</source>
         <translation>continuare lì, oppure chiuderlo prima lì</translation>
+    </message>
+</context>
+<context>
+    <name>session.end-show-itself</name>
+    <message>
+        <source>hold Esc on the projector&apos;s picture for two seconds</source>
+        <translation>tenere premuto Esc per due secondi sull’immagine del proiettore</translation>
     </message>
 </context>
 <context>

@@ -4863,8 +4863,32 @@
         <translation>別のプログラムがこの会場のショーを再生しています</translation>
     </message>
     <message>
-        <source>End it before light is measured: its pictures may come between the patterns.</source>
-        <translation>光を測定する前に終了してください。その画像がパターンの間に現れることがあります。</translation>
+        <source>The show plays on.</source>
+        <translation>ショーは続いています。</translation>
+    </message>
+    <message>
+        <source>End that show</source>
+        <translation>そのショーを終了</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>ショーを終了</translation>
+    </message>
+    <message>
+        <source>Let it play</source>
+        <translation>再生を続ける</translation>
+    </message>
+    <message>
+        <source>The show that another program plays of this venue: the projector&apos;s screen goes dark.</source>
+        <translation>別のプログラムが再生しているこの会場のショー：プロジェクターの画面が暗くなります。</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. An installed show starts again at the next log-in.</source>
+        <translation>会場とプレイリストは残ります。インストール済みのショーは次のログイン時に再び始まります。</translation>
+    </message>
+    <message>
+        <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
+        <translation>ここから何を表示しても、その画像がプロジェクターに映り、測定するパターンの間に現れることがあります。</translation>
     </message>
 </context>
 <context>
@@ -5627,6 +5651,10 @@ projector %2</source>
         <source>No show of a rehearsal is looked after.</source>
         <translation>リハーサルのショーは手入れしません。</translation>
     </message>
+    <message>
+        <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
+        <translation>インストール済みのショーは、その時点で動いていれば %1 に最初の夜間手入れを行います。カメラはその場所に置いたままにしてください。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6224,10 +6252,6 @@ projector %2</source>
         <translation>カメラを元に戻す</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
-        <translation>カメラかプロジェクターの位置が変わっています。カメラを元に戻すか、向きを合わせて測定し直してください。</translation>
-    </message>
-    <message>
         <source>On this page only</source>
         <translation>このページのみ</translation>
     </message>
@@ -6712,10 +6736,6 @@ projector %2</source>
         <translation>測定はこれまでどおり使われます。退避が完了したらもう一度修復してください。</translation>
     </message>
     <message>
-        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
-        <translation>ほとんど一致しません。カメラを元に戻すか、向きを合わせて再測定してください。</translation>
-    </message>
-    <message>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>出力は閉じています。撮影用の画像を投影しています。</translation>
     </message>
@@ -6754,6 +6774,42 @@ projector %2</source>
     <message>
         <source>The output is closed here. Another program plays a show of this venue.</source>
         <translation>ここの出力は閉じています。別のプログラムがこの会場のショーを再生しています。</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back or repair the calibration; if neither helps, aim and measure again.</source>
+        <translation>ほとんど一致しません。カメラを元に戻すか、校正を修復してください。どちらも効かなければ、向きを合わせて測定し直してください。</translation>
+    </message>
+    <message>
+        <source>Almost nothing of the projector&apos;s light is seen. Look at the lens and at the projector, then check again.</source>
+        <translation>プロジェクターの光がほとんど見えません。レンズとプロジェクターを確認してから、もう一度検査してください。</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>インストール済みです。ショーは次のログイン時に、ウィザードなしで始まります。カメラはそのまま残します。夜間に画像の手入れをします。</translation>
+    </message>
+    <message>
+        <source>Another program plays</source>
+        <translation>別のプログラムが再生中</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, repair the calibration, or aim and measure again.</source>
+        <translation>ほとんど一致しません。カメラを元に戻す、校正を修復する、または向きを合わせて測定し直してください。</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue.</source>
+        <translation>別のプログラムがこの会場のショーを再生しています。</translation>
+    </message>
+    <message>
+        <source>The room&apos;s light has changed. Restore it and check again, or repair the calibration.</source>
+        <translation>室内の明かりが変わっています。元に戻してもう一度検査するか、校正を修復してください。</translation>
+    </message>
+    <message>
+        <source>The camera looks elsewhere</source>
+        <translation>カメラが別の場所を向いています</translation>
+    </message>
+    <message>
+        <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
+        <translation>測定時の向きから %1 px ずれたままです。元に戻すか、校正を修復してください。</translation>
     </message>
 </context>
 <context>
@@ -9538,10 +9594,24 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>session.cannot-end-show</name>
+    <message>
+        <source>the other program may not be ended from here</source>
+        <translation>別のプログラムはここからは終了できません</translation>
+    </message>
+</context>
+<context>
     <name>session.close-other-window</name>
     <message>
         <source>go on there, or close it there first</source>
         <translation>そちらで続けるか、先にそちらで閉じてください</translation>
+    </message>
+</context>
+<context>
+    <name>session.end-show-itself</name>
+    <message>
+        <source>hold Esc on the projector&apos;s picture for two seconds</source>
+        <translation>プロジェクターの画面で Esc を 2 秒間押し続けてください</translation>
     </message>
 </context>
 <context>

@@ -4863,8 +4863,32 @@
         <translation>另一个程序正在播放此场地的节目</translation>
     </message>
     <message>
-        <source>End it before light is measured: its pictures may come between the patterns.</source>
-        <translation>测量光之前请先结束它：它的画面可能会插到图案之间。</translation>
+        <source>The show plays on.</source>
+        <translation>节目继续播放。</translation>
+    </message>
+    <message>
+        <source>End that show</source>
+        <translation>结束那个节目</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>结束节目</translation>
+    </message>
+    <message>
+        <source>Let it play</source>
+        <translation>让它继续播放</translation>
+    </message>
+    <message>
+        <source>The show that another program plays of this venue: the projector&apos;s screen goes dark.</source>
+        <translation>另一个程序播放的此场地节目：投影机的屏幕会变黑。</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. An installed show starts again at the next log-in.</source>
+        <translation>场地和播放列表保留。已安装的节目会在下次登录时重新开始。</translation>
+    </message>
+    <message>
+        <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
+        <translation>无论此处显示什么，它的画面都会出现在投影机上，也可能插到被测量的图案之间。</translation>
     </message>
 </context>
 <context>
@@ -5627,6 +5651,10 @@ projector %2</source>
         <source>No show of a rehearsal is looked after.</source>
         <translation>演练的节目不做维护。</translation>
     </message>
+    <message>
+        <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
+        <translation>已安装的节目若届时在播放，第一次将在 %1 进行。它的相机必须留在原处。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6224,10 +6252,6 @@ projector %2</source>
         <translation>把相机放回原位</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
-        <translation>相机或投影机不在原处。请把相机放回原位，或重新对准并测量。</translation>
-    </message>
-    <message>
         <source>On this page only</source>
         <translation>仅在此页面</translation>
     </message>
@@ -6712,10 +6736,6 @@ projector %2</source>
         <translation>测量照旧使用。清场后请再次修复。</translation>
     </message>
     <message>
-        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
-        <translation>几乎全不吻合。请把相机放回原位，或重新对准并测量。</translation>
-    </message>
-    <message>
         <source>The output is closed. A picture to be photographed is projected.</source>
         <translation>输出已关闭。正在投影用于拍摄的图片。</translation>
     </message>
@@ -6754,6 +6774,42 @@ projector %2</source>
     <message>
         <source>The output is closed here. Another program plays a show of this venue.</source>
         <translation>此处的输出已关闭。另一个程序正在播放此场地的节目。</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back or repair the calibration; if neither helps, aim and measure again.</source>
+        <translation>几乎全都不符。请把相机放回原位或修复校准；若都无效，请重新对准并测量。</translation>
+    </message>
+    <message>
+        <source>Almost nothing of the projector&apos;s light is seen. Look at the lens and at the projector, then check again.</source>
+        <translation>几乎看不到投影机的光。请检查镜头和投影机，然后再检查一次。</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>已安装。节目会在下次登录时开始，无需向导。相机留在原处：夜间由它照看画面。</translation>
+    </message>
+    <message>
+        <source>Another program plays</source>
+        <translation>另一个程序正在播放</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, repair the calibration, or aim and measure again.</source>
+        <translation>几乎全都不符。请把相机放回原位、修复校准，或重新对准并测量。</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of this venue.</source>
+        <translation>另一个程序正在播放此场地的节目。</translation>
+    </message>
+    <message>
+        <source>The room&apos;s light has changed. Restore it and check again, or repair the calibration.</source>
+        <translation>室内光线变了。请恢复原状后再检查，或修复校准。</translation>
+    </message>
+    <message>
+        <source>The camera looks elsewhere</source>
+        <translation>相机对着别处</translation>
+    </message>
+    <message>
+        <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
+        <translation>它停在距测量时所对位置 %1 px 处。请放回原位，或修复校准。</translation>
     </message>
 </context>
 <context>
@@ -9538,10 +9594,24 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>session.cannot-end-show</name>
+    <message>
+        <source>the other program may not be ended from here</source>
+        <translation>不允许从此处结束另一个程序</translation>
+    </message>
+</context>
+<context>
     <name>session.close-other-window</name>
     <message>
         <source>go on there, or close it there first</source>
         <translation>请在那里继续，或先在那里关闭它</translation>
+    </message>
+</context>
+<context>
+    <name>session.end-show-itself</name>
+    <message>
+        <source>hold Esc on the projector&apos;s picture for two seconds</source>
+        <translation>在投影机画面上按住 Esc 两秒</translation>
     </message>
 </context>
 <context>

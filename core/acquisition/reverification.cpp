@@ -139,8 +139,16 @@ Message roomChange(double ambient) {
 
 }  // namespace
 
+bool isLightSeen(double lamp) {
+  return lamp > leastLight;
+}
+
+bool isRoomChanged(double ambient) {
+  return std::abs(ambient) > ambientLimit;
+}
+
 Judgement judge(const Reverification& found, double errorThen) {
-  if (!(found.lamp > leastLight))
+  if (!isLightSeen(found.lamp))
     return {
         Verdict::startAgain,
         RELUCENT_ENGLISH_MESSAGE("verify.no-light",
@@ -156,7 +164,7 @@ Judgement judge(const Reverification& found, double errorThen) {
                 "put them back and verify once more, repair the calibration, or measure everything "
                 "again.")
                 .with(as::share(found.changedShare, as::decimals(0)))};
-  if (std::abs(found.ambient) > ambientLimit) return {Verdict::remeasure, roomChange(found.ambient)};
+  if (isRoomChanged(found.ambient)) return {Verdict::remeasure, roomChange(found.ambient)};
   if (found.changedShare > changedLimit)
     return {Verdict::remeasure,
             RELUCENT_ENGLISH_MESSAGE("verify.view-changed",

@@ -46,6 +46,11 @@ enum class Verdict {
 /// "still_good", "remeasure", "start_again".
 std::string_view toString(Verdict verdict);
 
+/// Whether there is enough of the projector's light to judge anything by: `lamp` of what is found.
+bool isLightSeen(double lamp);
+/// Whether the room's light alone is another than T can be used with: `ambient` of what is found.
+bool isRoomChanged(double ambient);
+
 struct Judgement {
   Verdict verdict = Verdict::stillGood;
   Message sentence;

@@ -77,7 +77,7 @@ QString Session::name() const {
 void Session::open(const fs::path& path) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
-  hold(path);
+  hold(folder.path());
   surprises_ = pipeline::loadSurprises(path);
   keepSurprises(path);
   adopt(std::move(folder));
@@ -86,7 +86,7 @@ void Session::open(const fs::path& path) {
 void Session::begin(const fs::path& path, const pipeline::CalibrateSettings& settings,
                     const venue::SurpriseSettings& surprises) {
   calibration::CalibrationFolder folder = pipeline::beginCalibration(path, settings);
-  hold(path);
+  hold(folder.path());
   surprises_ = surprises.kinds.empty() ? nullptr : std::make_shared<venue::Surprises>(surprises);
   if (surprises_) pipeline::saveSurprises(*surprises_, path);
   keepSurprises(path);

@@ -20,6 +20,7 @@
 
 #include "app/wizard_window.h"
 #include "gui/wizard/output/night_history.h"
+#include "output/venue_use.h"
 #include "relucent/base/message.h"
 #include "relucent/calibration/results.h"
 #include "relucent/pipeline/calibrate.h"
@@ -352,6 +353,14 @@ void takeReturning(WizardWindow& wizard, Photographs& photographs) {
 }
 
 /// A good photograph, and a later check for drift that found something.
+/// Beside a show of another program.
+void takeOtherShow(WizardWindow& wizard, Photographs& photographs) {
+  const auto show = VenueUse::take(wizard.session().path(), VenueUse::Way::show);
+  until([&] { return wizard.session().isShownElsewhere(); });
+  wizard.wizard().go(7);
+  photographs.take("08-other-show");
+}
+
 void takeDoubted(WizardWindow& wizard, Photographs& photographs) {
   const std::filesystem::path path = wizard.session().path();
   DriftRecord drift;
@@ -511,6 +520,7 @@ int main(int argc, char** argv) {
   photographs.take("08-out-of-date");
   wizard.page<OutputPage>().close();
   photographs.take("08-closed");
+  takeOtherShow(wizard, photographs);
   takeDoubted(wizard, photographs);
   takeReasons(wizard, photographs);
   QTest::mouseClick(wizard.window().findChild<QPushButton*>("open-settings"), Qt::LeftButton);

@@ -102,6 +102,7 @@ class TestLeavingPages : public QObject {
     const std::filesystem::path path = session_->path();
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
       if (entry.path().filename() == "transport.npz") std::filesystem::remove(entry.path());
+    session_->close();
     Session session(std::filesystem::path(folder_->filePath("cache").toStdString()));
     session.open(path);
     ThresholdPage page(session);

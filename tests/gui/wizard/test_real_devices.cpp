@@ -355,8 +355,10 @@ class TestRealDevices : public QObject {
     QVERIFY2(offered.front().usable, english(offered.front().problem).c_str());
 
     // Remembered: another session knows screen, camera and latency.
+    const std::filesystem::path kept = session.path();
+    session.close();
     Session again(cache());
-    again.open(session.path());
+    again.open(kept);
     QCOMPARE(again.screenRig()->cameraAddress, found.address);
     QCOMPARE(again.screenRig()->display.connector, std::string("DUMMY1"));
     QVERIFY(again.figures<Stage::camera>()->latencySeconds.value() > 0.0);

@@ -131,8 +131,10 @@ class TestVenueScreen : public QObject {
     QCOMPARE(session_->measuredDisplay().connector, std::string("DUMMY1"));
     QVERIFY(session_->progress(Stage::linearization) == StageProgress::done);
     QVERIFY(!page.banner());
+    const std::filesystem::path kept = session_->path();
+    session_->close();
     Session again{std::filesystem::path()};
-    again.open(session_->path());
+    again.open(kept);
     QCOMPARE(again.screenRig()->display.connector, std::string("DUMMY2"));
   }
 

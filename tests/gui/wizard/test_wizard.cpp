@@ -250,6 +250,7 @@ class TestWizard : public QObject {
   void aCalibrationOpensByItsFolderOrItsFile() {
     std::filesystem::path folder(folder_.filePath("opened").toStdString());
     session_->begin(folder, CalibrateSettings());
+    session_->close();
     for (const std::filesystem::path& path : {folder, folder / "calibration.relucent"}) {
       Session again{std::filesystem::path()};
       VenuePage page(again, RecentVenues(*settings_));
@@ -285,8 +286,10 @@ class TestWizard : public QObject {
     QVERIFY(session_->progress(Stage::threshold) == StageProgress::stale);
     ThresholdPage page(*session_);
     QVERIFY(page.status().state == StepState::outOfDate);
+    const std::filesystem::path kept = session_->path();
+    session_->close();
     Session again{std::filesystem::path()};
-    again.open(session_->path());
+    again.open(kept);
     QVERIFY(again.progress(Stage::threshold) == StageProgress::stale);
     QCOMPARE(again.name(), QString("kept"));
   }

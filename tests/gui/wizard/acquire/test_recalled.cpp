@@ -24,9 +24,9 @@ class TestRecalled : public QObject {
   std::vector<AcquisitionTrace::Point> points_;
   double seconds_ = 0.0;
 
-  std::filesystem::path result() const {
-    return own_.session.result(Stage::acquisition)->folder / acquisitionRecordName;
-  }
+  std::filesystem::path venue_, measured_;  // closed, to be opened again
+
+  std::filesystem::path result() const { return measured_ / acquisitionRecordName; }
 
  private slots:
   void initTestCase() {
@@ -41,6 +41,9 @@ class TestRecalled : public QObject {
     points_ = page.trace().points();
     seconds_ = page.trace().seconds();
     QVERIFY(!levels_.empty() && !points_.empty());
+    venue_ = own_.session.path();
+    measured_ = own_.session.result(Stage::acquisition)->folder;
+    own_.session.close();
   }
 
   /// Law: opened again it is shown as it was, without T, which takes long to read.
@@ -50,7 +53,7 @@ class TestRecalled : public QObject {
     const PageView view = viewOf(page);
     const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
     QSignalSpy failed(&page, &PageModel::failed);
-    again.open(own_.session.path());
+    again.open(venue_);
     const auto* picture = stage->findChild<ImageView*>("floodlight-view");
     QVERIFY(page.floodlight().empty() && picture->picture().isNull() && page.levels().empty());
     page.enter();
@@ -87,7 +90,7 @@ class TestRecalled : public QObject {
   void anotherCalibrationShowsNothingOfIt() {
     Session again{std::filesystem::path()};
     AcquirePage page(again);
-    again.open(own_.session.path());
+    again.open(venue_);
     page.enter();
     QTRY_VERIFY(!page.floodlight().empty());
     again.begin(own_.path("another"), smallVenue());
@@ -97,8 +100,7 @@ class TestRecalled : public QObject {
 
   /// Law: what cannot be read is said where it would be seen, and leads to what helps.
   void whatCannotBeReadIsSaid() {
-    const std::filesystem::path flood = own_.session.result(Stage::acquisition)->folder / "flood-1.exr",
-                                aside = own_.path("flood.exr");
+    const std::filesystem::path flood = measured_ / "flood-1.exr", aside = own_.path("flood.exr");
     std::filesystem::rename(flood, aside);
     const auto back = qScopeGuard([&] { std::filesystem::rename(aside, flood); });
     Session again{std::filesystem::path()};
@@ -106,7 +108,7 @@ class TestRecalled : public QObject {
     const PageView view = viewOf(page);
     const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
     QSignalSpy failed(&page, &PageModel::failed);
-    again.open(own_.session.path());
+    again.open(venue_);
     QVERIFY(!page.isUnreadable() && !page.banner());
     page.enter();
     QTRY_COMPARE(failed.size(), 1);
@@ -121,7 +123,7 @@ class TestRecalled : public QObject {
     Session again{std::filesystem::path()};
     AcquirePage page(again);
     QSignalSpy failed(&page, &PageModel::failed);
-    again.open(own_.session.path());
+    again.open(venue_);
     page.enter();
     QTRY_VERIFY(!page.floodlight().empty());
     QVERIFY(page.levels().empty() && page.trace().points().empty());

@@ -114,6 +114,7 @@ class TestVenueUse : public QObject {
     QVERIFY2(sentence().contains("open in another window"), qPrintable(sentence()));
     QVERIFY(!second.isOpen());
     first.session.open(first.path("venue"));  // again, where it is open already
+    first.session.open(first.path("venue") / calibration::CalibrationFolder::manifestName);
     QVERIFY(first.session.isOpen() && !sentence().isEmpty());
     first.begin(smallVenue(), "next");
     QCOMPARE(sentence(), QString());

@@ -16,7 +16,7 @@ struct ScreenCastWish {
   std::chrono::milliseconds dialog{0};
   std::chrono::milliseconds portal{10'000};      // for what the portal answers by itself
   std::chrono::milliseconds connection{10'000};  // from the agreement until PipeWire has joined both sides
-  std::chrono::milliseconds first{2'000};        // and to the first picture of a size, before it is joined anew
+  std::chrono::milliseconds first{2'000};  // and to the first picture of a size, before it is joined anew
 };
 
 /// Who waits for a picture of the desktop.

@@ -338,17 +338,25 @@ void takeStopped(WizardWindow& wizard, Photographs& photographs) {
 /// Measured again, and back to what was there before: both questions.
 void takeReturning(WizardWindow& wizard, Photographs& photographs) {
   AcquirePage& acquire = wizard.page<AcquirePage>();
+  // Which of the buttons it is depends on how good the measurement was that was stopped.
+  const auto press = [&acquire](const QString& text) {
+    std::vector<PageCommand*> commands = acquire.secondary();
+    commands.push_back(acquire.primary());
+    for (PageCommand* command : commands)
+      if (command != nullptr && command->text() == text) return command->trigger();
+    std::fprintf(stderr, "screenshots: there is no button \"%s\"\n", qPrintable(text));
+  };
   wizard.wizard().go(3);
-  acquire.secondary().front()->trigger();
+  press(AcquirePage::tr("Measure again"));
   wizard.session().live().setLeastInterval(50);
   until([&] { return acquire.photographs() > 3 && acquire.trace().growth().levels.size() > 2; });
-  acquire.secondary().front()->trigger();
+  press(AcquirePage::tr("Keep the earlier one"));
   photographs.takeDialog("04-keep-earlier", "failure");
   acquire.stopAndKeep();
   until([&] { return !acquire.isMeasuring(); });
   wizard.session().live().setLeastInterval(0);
   photographs.take("04-stopped-again");
-  acquire.secondary().front()->trigger();
+  press(AcquirePage::tr("Use the earlier one"));
   photographs.takeDialog("04-use-earlier", "failure");
 }
 

@@ -320,8 +320,8 @@ void takeStopped(WizardWindow& wizard, Photographs& photographs) {
   AcquirePage& acquire = wizard.page<AcquirePage>();
   const QMetaObject::Connection stopping =
       QObject::connect(&acquire.trace(), &AcquisitionTrace::changed, &acquire, [&acquire] {
-        if (acquire.isMeasuring() && !acquire.isStopping() && acquire.trace().growth().levels.size() > 2)
-          acquire.stopAndKeep();
+        const bool takes = acquire.isMeasuring() && !acquire.isReading() && !acquire.isStopping();
+        if (takes && acquire.trace().growth().levels.size() > 2) acquire.stopAndKeep();
       });
   // On a busy machine the one before may have ended by itself.
   (acquire.isDone() ? acquire.secondary().front() : acquire.primary())->trigger();

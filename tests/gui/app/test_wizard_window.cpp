@@ -451,28 +451,29 @@ class TestWizardWindow : public QObject {
     QVERIFY(wizard_->page<PreviewPage>().settings().method == Method::optimum);
   }
 
-  /// Whoever has only keys gets past everything on a page.
+  /// Whoever has only keys gets past everything on a page: from the stage to the button that leads on and to
+  /// the rail.
   void tabLeadsAroundEveryPage() {
+    const std::size_t before = page();
     for (std::size_t i = 0; i < wizard_->wizard().count(); ++i) {
       if (wizard_->wizard().isLocked(i)) continue;
       wizard_->wizard().go(i);
       wizard_->window().activateWindow();
       QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
-      const QWidget* first = wizard_->window().focusWidget();
-      QVERIFY(first != nullptr);
-      QSet<const QWidget*> met;
-      constexpr int most = 200;
-      int keys = 0;
-      do {
-        QTest::keyClick(wizard_->window().focusWidget(), Qt::Key_Tab);
-        met.insert(wizard_->window().focusWidget());
-      } while (wizard_->window().focusWidget() != first && ++keys < most);
-      const QByteArray page = wizard_->wizard().page(i).name().toUtf8();
-      QVERIFY2(keys < most, page.constData());
+      QStringList met;
+      constexpr int enough = 80;
+      for (int key = 0; key < enough; ++key) {
+        QWidget* focus = wizard_->window().focusWidget();
+        QVERIFY(focus != nullptr);
+        met << focus->objectName();
+        QTest::keyClick(focus, Qt::Key_Tab);
+      }
+      const QByteArray told = wizard_->wizard().page(i).name().toUtf8() + ": " + met.join(", ").toUtf8();
+      QVERIFY2(met.contains("step-1"), told.constData());
       const auto* primary = find<QWidget>("primary");
-      if (primary->isVisible() && primary->isEnabled()) QVERIFY2(met.contains(primary), page.constData());
+      QVERIFY2(!primary->isVisible() || !primary->isEnabled() || met.contains("primary"), told.constData());
     }
-    wizard_->wizard().go(6);
+    wizard_->wizard().go(before);
   }
 
   void theContentIsPlacedByMouseAndKeyboard() {

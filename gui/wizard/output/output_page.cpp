@@ -217,10 +217,10 @@ QString OutputPage::hint() const {
         return playingHint();
     }
   }
+  if (session_.isShownElsewhere()) return tr("Another program plays a show of this venue.");
   if (isOnPageOnly()) return tr("This rehearsal plays on this page only: nothing is projected.");
   if (coversOperator()) return tr("The output will cover this window. Esc closes the output.");
-  return session_.isShownElsewhere() ? tr("Another program plays a show of this venue.")
-                                     : tr("Nothing is projected before you open the output.");
+  return tr("Nothing is projected before you open the output.");
 }
 
 /// While nothing stands against the show: what it does, in one voice with the rail.

@@ -307,7 +307,7 @@ class OutputStage : public QWidget {
     const QString taken = page_.proof().isOutOfDate() ? OutputPage::tr("taken %1, out of date").arg(when)
                                                       : OutputPage::tr("taken %1").arg(when);
     if (shown_->picture.isEmpty()) return taken;
-    return QString("%1, %2").arg(isolated(OutputPlaylist::nameOf(shown_->picture)), taken);
+    return QString("%1, %2").arg(taken, isolated(OutputPlaylist::nameOf(shown_->picture)));
   }
   /// Over the projector's picture: how it goes.
   QString figures() const {

@@ -17,6 +17,7 @@
 #include "relucent/pipeline/stills.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/venue/device_faults.h"
+#include "support/sanitized.h"
 
 using namespace relucent;
 using namespace relucent::pipeline;
@@ -98,7 +99,9 @@ class TestNight : public QObject {
     const auto day = [&](const std::function<void()>& happens, RepairEnd expected) {
       happens();
       const NightRecord after = night();
-      const double anew = measuredAnew(folder, changes);
+      // Qualities are compared without sanitizers.
+      const double anew =
+          isSanitized ? std::numeric_limits<double>::infinity() : measuredAnew(folder, changes);
       const QString figures = QString("ΔE %1, measured anew %2").arg(after.measured->deltaE).arg(anew);
       qInfo().noquote() << figures;
       QVERIFY2(!isAlarm(after), english(after.alarm).c_str());

@@ -100,7 +100,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
   });
   accept_ = addCommand(Icon::next, [this] { accept(); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
-  if (session_.isOpen()) settings_ = session_.settings().content;
+  if (session_.isOpen()) settings_ = stored_ = session_.settings().content;
   set_ = session_.sets().nameInUse();
   shine_ = addCommand(Icon::projector, [this] { isShining() ? stopShining() : shine(); });
   compare_ = addCommand(Icon::picture, [this] { setShinesCorrected(!shinesCorrected()); });
@@ -110,7 +110,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
   connect(&session_, &Session::opened, this, [this] {
     finish();
     masks_.choose(std::nullopt);
-    settings_ = session_.settings().content;
+    settings_ = stored_ = session_.settings().content;
     set_ = session_.sets().nameInUse();
     isOtherSet_ = false;
     engine_ = nullptr;
@@ -124,6 +124,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
   });
   connect(&session_, &Session::stepsChanged, this, [this] {
     followSet();
+    followContent();
     if (looked_) prepare();
     tellAll();
   });

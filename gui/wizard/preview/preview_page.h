@@ -139,6 +139,8 @@ class PreviewPage : public DevicePage {
   void accept();
   void changeSets(const std::function<void(calibration::CalibrationFolder&)>& how);
   void followSet();
+  void followContent();
+  void takeOver();
   void keepIn(calibration::CalibrationFolder& folder) const;
   void acceptSet();
   bool keepPlacement();
@@ -153,6 +155,7 @@ class PreviewPage : public DevicePage {
   DeviceLease lease_;
   Job job_;
   pipeline::ContentSettings settings_;
+  pipeline::ContentSettings stored_;  // as the calibration had it when it was looked at last
   std::shared_ptr<const image::Image> content_;
   std::string contentOf_;  // where it was read
   QString problem_;

@@ -63,13 +63,23 @@ void PreviewPage::followSet() {
   const std::string now = session_.sets().nameInUse();
   if (std::exchange(set_, now) == now) return;
   isOtherSet_ = true;
-  if (settings_ != session_.settings().content) {
-    masks_.cancel();
-    masks_.choose(std::nullopt);
-    undoStack().clear();  // of the other set's
-    adopt(session_.settings().content);
-  }
+  if (settings_ != session_.settings().content) takeOver();
   acceptSet();
+}
+
+/// What else changed it, like a repair, which moves it with the view: whoever looked at the page would keep
+/// what it was.
+void PreviewPage::followContent() {
+  const pipeline::ContentSettings now = session_.settings().content;
+  const bool isOwn = settings_ == now || placedSettings() == now;
+  if (std::exchange(stored_, now) != now && !isOwn) takeOver();
+}
+
+void PreviewPage::takeOver() {
+  masks_.cancel();
+  masks_.choose(std::nullopt);
+  undoStack().clear();  // of what is no more
+  adopt(session_.settings().content);
 }
 
 /// Who places content in one set has placed it in those that are made of it: there is nothing to do again.

@@ -145,6 +145,28 @@ class TestPreviewSets : public QObject {
       QCOMPARE(dialog.findChild<Note*>("set-wrong")->isHidden(), !said);
     }
   }
+
+  /// As a repair does: the page would put it back where it was.
+  void whatElseMovesItIsFollowed() {
+    const pipeline::CalibrateSettings before = own_.session.settings();
+    pipeline::CalibrateSettings moved = before;
+    moved.content.corners = compensation::Corners{{{5, 4}, {22, 5}, {21, 16}, {6, 15}}};
+    setDarkShare(25.0);
+    QVERIFY(page_->undoStack().canUndo());
+    own_.session.changeSettings(moved);
+    QVERIFY(page_->settings() == moved.content);
+    QVERIFY(!page_->isChanged() && !page_->undoStack().canUndo());
+    settle();
+    // Of other changes, what was chosen here stays.
+    setDarkShare(30.0);
+    pipeline::CalibrateSettings other = own_.session.settings();
+    other.clustering.patchRadius += 1.0;
+    own_.session.changeSettings(other);
+    QCOMPARE(page_->settings().reachablePercentile, 30.0);
+    own_.session.changeSettings(before);
+    QVERIFY(page_->settings() == before.content);
+    settle();
+  }
 };
 
 QTEST_MAIN(TestPreviewSets)

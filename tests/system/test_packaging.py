@@ -336,7 +336,7 @@ class TheList(unittest.TestCase):
         package = r"[a-z0-9][a-z0-9.+-]+"
         for line in (SOURCE / "packaging/dependencies").read_text().splitlines():
             text = line.split("#")[0].strip()
-            self.assertRegex(text, rf"^(|\[(build|run|tests|package)\]|{package}( \?|( \| {package})*))$", line)
+            self.assertRegex(text, rf"^(|\[(build|run|tests|long|package)\]|{package}( \?|( \| {package})*))$", line)
 
     def test_the_scripts_parse(self):
         for script in filter(Path.is_file, (SOURCE / "packaging").rglob("*")):

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = platform::FolderLock::Kind;
 
-/// An empty folder, which is locked instead of the venue's own: that one is locked while it is written.
+/// A folder of its own, which is locked instead of the venue's own: that one is locked while it is written.
 QString noteOf(const fs::path& venue, VenueUse::Way way) {
   std::error_code ignored;
   const fs::path whole = fs::weakly_canonical(venue / "", ignored);

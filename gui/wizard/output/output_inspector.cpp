@@ -112,6 +112,12 @@ void showProof(Remark& remark, const OutputPage& page) {
         Remark::Kind::watch, OutputPage::tr("Not to be proved yet"),
         OutputPage::tr("The projector still shows another correction. Show the current one, then take "
                        "the photograph."));
+  if (const auto pixels = page.proof().leftElsewhere())
+    return remark.show(
+        Remark::Kind::warning, OutputPage::tr("The camera looks elsewhere"),
+        OutputPage::tr("It was left %1 px from where it looked when it was measured. Put it back, or "
+                       "repair the calibration.")
+            .arg(decimalText(*pixels, 1)));
   if (page.proof().isOutOfDate())
     return remark.show(Remark::Kind::warning, OutputPage::tr("The photograph is out of date"),
                        OutputPage::tr("What it was taken of has been measured or chosen anew since. Take it "
@@ -119,12 +125,6 @@ void showProof(Remark& remark, const OutputPage& page) {
   if (proof == nullptr)
     return remark.show(Remark::Kind::watch, OutputPage::tr("Not photographed yet"),
                        OutputPage::tr("One photograph shows whether the surface looks as predicted."));
-  if (const auto pixels = page.proof().leftElsewhere())
-    return remark.show(
-        Remark::Kind::warning, OutputPage::tr("The camera looks elsewhere"),
-        OutputPage::tr("It was left %1 px from where it looked when it was measured. Put it back, or "
-                       "repair the calibration.")
-            .arg(decimalText(*pixels, 1)));
   if (page.proof().wasPushedBack())
     return remark.show(Remark::Kind::watch, OutputPage::tr("The camera is back at its place"),
                        OutputPage::tr("Take the photograph again: the last one was taken before."));

@@ -137,7 +137,7 @@ class OutputPage : public DevicePage {
   void undoRepair() { proof_.undoRepair(); }
   /// Shows full light and looks, until pushedBack(): nudgeWanted() asks for what shows that.
   void pushBack();
-  /// What the devices were looked at with is gone. `atItsPlace`: the camera looks where it looked.
+  /// What the devices were looked at with is gone. `last`: seen before that; none: nothing was.
   void pushedBack(const std::optional<NudgeSight>& last);
   /// Writes the report and lets the desktop show it.
   void report();

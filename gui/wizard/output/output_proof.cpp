@@ -288,10 +288,10 @@ void OutputProof::finished() {
     }
     repairOf_ = measurementOf(session_);
   }
-  if (done && work_ != Work::report) {
-    pushedBack_ = false;
-    leftElsewhere_.reset();
-  }
+  const bool isSeen = done && (found->proof || found->drift);
+  if (isSeen) pushedBack_ = false;
+  const bool isAsMeasured = done && work_ == Work::repair && repair_->end == pipeline::RepairEnd::nothingToDo;
+  if (isSeen || isAsMeasured) leftElsewhere_.reset();
   Q_EMIT changed();
   Q_EMIT ended(work_);
   if (done && !found->report.isEmpty()) Q_EMIT reported(found->report);

@@ -80,17 +80,10 @@ struct RoomDevices {
 class Room {
  public:
   Room(const venue::VenueSettings& settings, const std::filesystem::path& cache, RoomDevices devices = {})
-      : devices_(std::move(devices)) {
-    Progress silent;
-    venue_.emplace(settings, cache, silent);
-    rig_ = venue_->rig([this](const rig::ShotId&) { return faultsNow(); });
-    std::vector<reduction::Reduction> sensors;
-    for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
-      const bool isOwn = i < devices_.cameras.size() && devices_.cameras[i].sensor;
-      sensors.push_back(isOwn ? *devices_.cameras[i].sensor
-                              : reduction::noReduction(rig_.cameras[i]->size()));
-    }
-    seen_ = reduction::reduced(rig_, sensors);
+      : devices_(std::move(devices)), settings_(settings), cache_(cache) {
+    furnish(settings, cache);
+    for (const auto& projector : rig_.projectors) projectorSizes_.push_back(projector->size());
+    for (const auto& camera : seen_.cameras) cameraSizes_.push_back(camera->size());
     for (const std::string& screen : devices_.screens)
       screens_.push_back(std::make_unique<test::ScreenLight>(screen));
     requests_.resize(rig_.cameras.size(), {{"none", 0}, 0, 1.0});
@@ -112,16 +105,30 @@ class Room {
   std::size_t cameras() const { return fakes_.size(); }
   test::FakeGigeCamera& camera(std::size_t index = 0) { return *fakes_[index]; }
   /// Of a camera's photographs.
-  Size size(std::size_t camera = 0) const { return seen_.cameras[camera]->size(); }
+  Size size(std::size_t camera = 0) const { return cameraSizes_[camera]; }
   /// By all cameras.
   int photographs() const { return photographs_; }
   /// Seconds of the cameras' that are one of the venue's: its exposures need not be waited for in full.
   double brightness() const { return brightness_; }
+  /// What happens in the room from now on, besides what became of it: until another one of its kind comes, or
+  /// for an amount of 0 no longer.
+  void happen(const venue::DeviceFault& fault) {
+    std::lock_guard guard(lock_);
+    std::erase_if(faults_, [&](const venue::DeviceFault& each) { return each.kind == fault.kind; });
+    if (fault.amount != 0.0) faults_.push_back(fault);
+  }
   /// Somebody bumps the first camera: what it sees has moved by so many pixels to the right and down. 0: it
   /// is put back.
   void bump(double pixels) {
-    std::lock_guard guard(lock_);
-    bumped_ = pixels;
+    venue::DeviceFault bump;
+    bump.kind = venue::FaultKind::shiftedCamera;
+    bump.amount = pixels;
+    happen(bump);
+  }
+  /// What has become of it since it was built. Its light is traced, which takes a while.
+  void change(const venue::Changes& changes) {
+    settings_.changes = changes;
+    furnish(settings_, cache_);
   }
   /// No photograph follows the one before in less.
   void setLeastInterval(std::chrono::milliseconds time) {
@@ -181,13 +188,23 @@ class Room {
     return seconds;
   }
 
-  std::vector<venue::DeviceFault> faultsNow() const {
-    std::lock_guard guard(lock_);
-    if (bumped_ == 0.0) return {};
-    venue::DeviceFault bump;
-    bump.kind = venue::FaultKind::shiftedCamera;
-    bump.amount = bumped_;
-    return {bump};
+  void furnish(const venue::VenueSettings& settings, const std::filesystem::path& cache) {
+    Progress silent;
+    auto venue = std::make_unique<venue::SimulatedVenue>(settings, cache, silent);
+    rig::Rig rig = venue->rig([this](const rig::ShotId&) {
+      std::lock_guard guard(lock_);
+      return faults_;
+    });
+    std::vector<reduction::Reduction> sensors;
+    for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+      const bool isOwn = i < devices_.cameras.size() && devices_.cameras[i].sensor;
+      sensors.push_back(isOwn ? *devices_.cameras[i].sensor : reduction::noReduction(rig.cameras[i]->size()));
+    }
+    rig::Rig seen = reduction::reduced(rig, sensors);
+    std::lock_guard guard(light_);
+    seen_ = std::move(seen);
+    rig_ = std::move(rig);
+    venue_ = std::move(venue);
   }
   void remember(const std::vector<image::Image>& shone) {
     std::size_t pattern = 0;
@@ -202,10 +219,9 @@ class Room {
   /// On each projector's screen.
   std::vector<image::Image> shining() const {
     std::vector<image::Image> all;
-    for (std::size_t i = 0; i < rig_.projectors.size(); ++i) {
-      const Size size = rig_.projectors[i]->size();
-      all.push_back(i < screens_.size() ? screens_[i]->look(size) : image::Image(size, 3));
-    }
+    for (std::size_t i = 0; i < projectorSizes_.size(); ++i)
+      all.push_back(i < screens_.size() ? screens_[i]->look(projectorSizes_[i])
+                                        : image::Image(projectorSizes_[i], 3));
     return all;
   }
   image::Image lit(const std::vector<image::Image>& shone, std::size_t camera,
@@ -231,12 +247,15 @@ class Room {
 
   RoomDevices devices_;
   std::vector<std::unique_ptr<test::ScreenLight>> screens_;
-  std::optional<venue::SimulatedVenue> venue_;
+  venue::VenueSettings settings_;
+  std::filesystem::path cache_;
+  std::unique_ptr<venue::SimulatedVenue> venue_;
+  std::vector<Size> projectorSizes_, cameraSizes_;
   rig::Rig rig_, seen_;  // the venue's devices, and the same through the room's sensors
   double brightness_ = 1.0;
   std::mutex light_;  // one camera looks at a time
   mutable std::mutex lock_;
-  double bumped_ = 0.0;
+  std::vector<venue::DeviceFault> faults_;
   std::chrono::milliseconds leastInterval_{0};
   std::chrono::steady_clock::time_point lastEnd_;
   std::vector<std::size_t> patterns_;

@@ -5035,6 +5035,10 @@
         <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
         <translation>تظهر صوره على جهاز العرض مهما عُرض من هنا، وقد تأتي بين الأنماط التي تُقاس.</translation>
     </message>
+    <message>
+        <source>It is ending</source>
+        <translation>ينتهي الآن</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>

@@ -4919,6 +4919,10 @@
         <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
         <translation>Ihre Bilder leuchten auf dem Projektor, was auch immer von hier gezeigt wird, und können zwischen gemessene Muster geraten.</translation>
     </message>
+    <message>
+        <source>It is ending</source>
+        <translation>Sie endet gerade</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>

@@ -4919,6 +4919,10 @@
         <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
         <translation>Sus imágenes se ven en el proyector, se muestre lo que se muestre desde aquí, y pueden aparecer entre los patrones que se miden.</translation>
     </message>
+    <message>
+        <source>It is ending</source>
+        <translation>Está terminando</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>

@@ -4919,6 +4919,10 @@
         <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
         <translation>Ses images sont projetées quoi qu’on montre d’ici, et peuvent se glisser entre les motifs mesurés.</translation>
     </message>
+    <message>
+        <source>It is ending</source>
+        <translation>Elle se termine</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>

@@ -4919,6 +4919,10 @@
         <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
         <translation>Le sue immagini sono sul proiettore qualunque cosa si mostri da qui, e possono comparire tra i motivi misurati.</translation>
     </message>
+    <message>
+        <source>It is ending</source>
+        <translation>Sta terminando</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>

@@ -4890,6 +4890,10 @@
         <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
         <translation>ここから何を表示しても、その画像がプロジェクターに映り、測定するパターンの間に現れることがあります。</translation>
     </message>
+    <message>
+        <source>It is ending</source>
+        <translation>終了しています</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>

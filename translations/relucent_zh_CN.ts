@@ -4890,6 +4890,10 @@
         <source>Its pictures shine on the projector whatever is shown from here, and may come between patterns that are measured.</source>
         <translation>无论此处显示什么，它的画面都会出现在投影机上，也可能插到被测量的图案之间。</translation>
     </message>
+    <message>
+        <source>It is ending</source>
+        <translation>正在结束</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>

@@ -22,7 +22,8 @@ DevicePage::DevicePage(const StepName& step, Session& session, QObject* parent)
 }
 
 void DevicePage::updateCommands() {
-  endShow_->show(tr("End that show"));
+  const bool isEnding = session_.isOtherShowEnding();
+  endShow_->show(isEnding ? tr("It is ending") : tr("End that show"), !isEnding);
   endShowNow_->show(tr("End the show"));
   letItPlay_->show(tr("Let it play"));
 }

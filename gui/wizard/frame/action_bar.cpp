@@ -106,6 +106,8 @@ bool ActionBar::focusPrimary() {
 }
 
 void ActionBar::refresh() {
+  const QWidget* focused = window()->focusWidget();
+  const bool hadFocus = focused != nullptr && isAncestorOf(focused);
   const PageModel& page = wizard_.currentPage();
   if (std::exchange(shown_, &page) != &page) {
     widths_.clear();
@@ -140,6 +142,10 @@ void ActionBar::refresh() {
   if (progress_->styleSheet() != sheet) progress_->setStyleSheet(sheet);
   refreshSecondary(page.secondary());
   arrange();
+  // A command that goes once it is given leaves who gave it by keys where they were.
+  focused = window()->focusWidget();
+  if (hadFocus && (focused == nullptr || !isAncestorOf(focused)) && !focusPrimary() && back_->isVisible())
+    back_->setFocus(Qt::OtherFocusReason);
 }
 
 /// What the page says, and why secondary actions are not possible where that is something else.

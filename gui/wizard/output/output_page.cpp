@@ -263,7 +263,8 @@ void OutputPage::updateCommands() {
 }
 
 PageCommand* OutputPage::primary() const {
-  if (!isOpen()) return open_;
+  // Beside another program's show it is possible, and not what is to be done next.
+  if (!isOpen()) return session_.isShownElsewhere() ? nullptr : open_;
   if (playsEarlier()) return renew_;
   switch (proof_.next()) {
     case OutputProof::Next::photograph:
@@ -287,7 +288,7 @@ PageCommand* OutputPage::primary() const {
 /// What comes and goes stands first, so that the others keep their places.
 std::vector<PageCommand*> OutputPage::secondary() const {
   if (!photographicWork().isEmpty()) return {stop_};
-  if (!isOpen()) return {};
+  if (!isOpen()) return session_.isShownElsewhere() ? std::vector{open_} : std::vector<PageCommand*>();
   std::vector<PageCommand*> commands;
   // What nobody has seen on the projectors is not installed from here.
   if (isInstallable() && !playsEarlier() && primary() != install_) commands.push_back(install_);
@@ -325,7 +326,8 @@ std::optional<Banner> OutputPage::banner() const {
                   tr("The playlist runs on unseen until you show it again."), endChart_};
   if (const auto stopped = onMeasurement(session_, goOnMeasuring_)) return stopped;
   if (!proof_.isOutOfDate()) return std::nullopt;
-  return Banner{Banner::Kind::amber, tr("The verification photograph is out of date"),
+  return Banner{isOpen() ? Banner::Kind::information : Banner::Kind::amber,
+                tr("The verification photograph is out of date"),
                 tr("What it was taken of has been measured or chosen anew since. Take it again to prove what "
                    "is shown now.")};
 }

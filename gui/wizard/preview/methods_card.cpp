@@ -12,6 +12,28 @@
 #include "wizard/session/method_name.h"
 
 namespace relucent::gui {
+namespace {
+
+QString decibelsText(double decibels) {
+  return PreviewPage::tr("%1 dB").arg(decimalText(decibels, 1));
+}
+
+QString colourErrorText(double deltaE) {
+  return isolated(QString::fromUtf8("ΔE %1").arg(decimalText(deltaE, 1)));
+}
+
+QString secondsText(double seconds) {
+  return seconds < 0.001 ? PreviewPage::tr("under 1 ms")
+         : seconds < 1.0 ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * seconds))
+                         : PreviewPage::tr("%1 s").arg(decimalText(seconds, 1));
+}
+
+/// What is seen is weighed as an eye does, which more decibels need not follow.
+QString weighedNote() {
+  return PreviewPage::tr("errors weighed as an eye does");
+}
+
+}  // namespace
 
 /// Nobody has to scroll across: what does not fit is left out, the least important first.
 class MethodsTable : public QTableWidget {
@@ -24,12 +46,13 @@ class MethodsTable : public QTableWidget {
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     setTabKeyNavigation(false);  // Tab leads out of it, arrows from row to row
   }
+  /// As for all that may come to stand there, so that no column goes while rows come.
   void fit() {
     int needed = 0;
     // The heading of a column that is hidden has no width.
     for (int column = psnr; column < columns; ++column) setColumnHidden(column, false);
     for (int column = 0; column < columns; ++column) {
-      needed += std::max(sizeHintForColumn(column), horizontalHeader()->sectionSizeHint(column)) + cellMargin;
+      needed += std::max(widestOf(column), horizontalHeader()->sectionSizeHint(column)) + cellMargin;
       if (column >= psnr) setColumnHidden(column, needed > viewport()->width());
     }
   }
@@ -52,17 +75,39 @@ class MethodsTable : public QTableWidget {
   }
 
  private:
+  int widestOf(int column) const {
+    const QFontMetrics metrics(typeOf(type::body, QFont::DemiBold));
+    const int padding = 2 * (style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, this) + 1);
+    int widest = sizeHintForColumn(column);
+    for (const QString& text : textsOf(static_cast<Column>(column)))
+      widest = std::max(widest, metrics.horizontalAdvance(text) + padding);
+    return widest;
+  }
+  static QStringList textsOf(Column column) {
+    QStringList texts;
+    switch (column) {
+      case method:
+        for (compensation::Method each : comparedMethods) texts << methodName(each);
+        break;
+      case note:
+        for (compensation::Method each : comparedMethods) texts << noteOf(each, {});
+        texts << weighedNote();
+        break;
+      case deltaE:
+        return {colourErrorText(88.8)};
+      case time:
+        return {secondsText(0.0), secondsText(0.888), secondsText(88.8)};
+      case psnr:
+        return {decibelsText(88.8)};
+      default:
+        return {decimalText(0.888, 3)};
+    }
+    return texts;
+  }
+
   static constexpr int cellMargin = 2;
   int chosen_ = -1;
 };
-
-namespace {
-
-QString decibelsText(double decibels) {
-  return PreviewPage::tr("%1 dB").arg(decimalText(decibels, 1));
-}
-
-}  // namespace
 
 QString noteOf(compensation::Method method, const std::vector<MethodPreview>& rows) {
   const auto own = std::ranges::find(rows, method, &MethodPreview::method);
@@ -75,9 +120,8 @@ QString noteOf(compensation::Method method, const std::vector<MethodPreview>& ro
     case compensation::Method::refined:
       return PreviewPage::tr("recommended");
     case compensation::Method::optimum:
-      // What is seen is weighed as an eye does, which more decibels need not follow.
       return own != rows.end() && std::ranges::any_of(rows, isBetterThanOwn)
-                 ? PreviewPage::tr("errors weighed as an eye does")
+                 ? weighedNote()
                  : PreviewPage::tr("limit of this venue");
     default:
       return {};
@@ -112,8 +156,8 @@ MethodsCard::MethodsCard(PreviewPage& page, QWidget* parent)
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setShowGrid(false);
   // As high as the methods, the rest is the picture's.
-  constexpr int header = 34, rowHeight = 26, methods = 5;
-  table_->setFixedHeight(header + methods * rowHeight);
+  constexpr int header = 34, rowHeight = 26;
+  table_->setFixedHeight(header + static_cast<int>(comparedMethods.size()) * rowHeight);
   connect(table_, &QTableWidget::cellClicked, &page_, [this](int row, int) { choose(row); });
   connect(table_, &QTableWidget::cellActivated, &page_, [this](int row, int) { choose(row); });
   body()->addWidget(table_);
@@ -156,16 +200,9 @@ void MethodsCard::refresh() {
   table_->setRowCount(static_cast<int>(rows.size()));
   for (int row = 0; row < table_->rowCount(); ++row) {
     const MethodPreview& method = rows[static_cast<std::size_t>(row)];
-    const QString time = method.seconds < 0.001 ? PreviewPage::tr("under 1 ms")
-                         : method.seconds < 1.0
-                             ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
-                             : PreviewPage::tr("%1 s").arg(decimalText(method.seconds, 1));
-    QStringList cells{methodName(method.method),
-                      noteOf(method.method, rows),
-                      isolated(QString::fromUtf8("ΔE %1").arg(decimalText(method.deltaE, 1))),
-                      time,
-                      decibelsText(method.psnr),
-                      decimalText(method.ssim, 3)};
+    QStringList cells{methodName(method.method),      noteOf(method.method, rows),
+                      colourErrorText(method.deltaE), secondsText(method.seconds),
+                      decibelsText(method.psnr),      decimalText(method.ssim, 3)};
     bool chosen = method.method == page_.settings().method;
     for (int cell = 0; cell < cells.size(); ++cell) {
       auto* item = new QTableWidgetItem(cells[cell]);

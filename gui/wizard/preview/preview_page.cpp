@@ -17,11 +17,6 @@
 namespace relucent::gui {
 namespace {
 
-/// What is compared; `optimum` last, it takes longest.
-constexpr std::array comparedMethods{compensation::Method::none, compensation::Method::mix,
-                                     compensation::Method::clusters, compensation::Method::refined,
-                                     compensation::Method::optimum};
-
 void chooseInverse(const std::filesystem::path& path, Progress& progress) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::write);

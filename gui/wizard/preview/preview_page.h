@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "jobs/job.h"
 #include "jobs/latest.h"
 #include "output/surface_pictures.h"
@@ -12,6 +14,11 @@
 #include "wizard/session/session.h"
 
 namespace relucent::gui {
+
+/// What Preview compares; `optimum` last, it takes longest.
+inline constexpr std::array comparedMethods{compensation::Method::none, compensation::Method::mix,
+                                            compensation::Method::clusters, compensation::Method::refined,
+                                            compensation::Method::optimum};
 
 /// Step 7: content in its place, before it is projected. It lies in the first camera's view, in others on the
 /// surface or in a place of its own; what all projectors give together is shown, as the chosen camera sees

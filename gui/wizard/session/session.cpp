@@ -63,6 +63,9 @@ Session::Session(fs::path cache, QObject* parent)
   shows_.setInterval(2'000);
   connect(&shows_, &QTimer::timeout, this, &Session::lookForShow);
   shows_.start();
+  ending_.setSingleShot(true);
+  ending_.setInterval(std::chrono::seconds(15));  // films and cameras are closed in a few
+  connect(&ending_, &QTimer::timeout, this, &Session::devicesChanged);
   consent_.setSingleShot(true);
   consent_.setInterval(std::chrono::minutes(30));
   connect(&consent_, &QTimer::timeout, this, [this] { setRoomClear(false); });
@@ -125,7 +128,12 @@ void Session::lookForShow() {
 }
 
 void Session::endOtherShow() {
-  if (VenueUse::end(path_, VenueUse::Way::show) || !VenueUse::isTaken(path_, VenueUse::Way::show)) return;
+  if (VenueUse::end(path_, VenueUse::Way::show)) {
+    ending_.start();
+    Q_EMIT devicesChanged();
+    return;
+  }
+  if (!VenueUse::isTaken(path_, VenueUse::Way::show)) return;
   throw Error(
       ErrorKind::input,
       RELUCENT_MESSAGE("session.cannot-end-show", "the other program may not be ended from here"),
@@ -154,6 +162,7 @@ void Session::adopt(calibration::CalibrationFolder given) {
   slowDown();
   makeDevices();
   isShownElsewhere_ = VenueUse::isTaken(path_, VenueUse::Way::show);
+  ending_.stop();
   Q_EMIT opened();
   Q_EMIT stepsChanged();
   Q_EMIT acquisitionChanged();

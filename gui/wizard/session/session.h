@@ -325,8 +325,10 @@ class Session : public QObject {
   void setShowing(bool showing);
   /// `relucent show` plays this venue beside the wizard, on this computer.
   bool isShownElsewhere() const { return isShownElsewhere_; }
-  /// Asks that show to end. Throws: Error{input} if this may not.
+  /// Asks that show to end, which it does in its own time. Throws: Error{input} if this may not.
   void endOtherShow();
+  /// It was asked, and may still do so.
+  bool isOtherShowEnding() const { return isShownElsewhere_ && ending_.isActive(); }
   /// What another calibration, or the end of the program, would end: not without a question.
   UnderWay underWay() const { return {isMeasuring(), isShowing_}; }
   /// Why a step can keep no settings now, in a sentence: work of another step has the calibration. Empty: it
@@ -407,6 +409,7 @@ class Session : public QObject {
   QString cameraFailure_;
   QTimer silence_;  // runs while somebody uses the devices
   QTimer shows_;    // other programs' are looked for
+  QTimer ending_;   // runs while another program's show has time to end
   std::optional<RoomLight> roomLight_;
   CheckPatience patience_;
   struct Read {

@@ -35,14 +35,19 @@ class ScriptedPage : public PageModel {
       isDark = !isDark;
       tellStatus();
     });
-    end_ = addCommand(Icon::stop, [] {});
+    end_ = addCommand(Icon::stop, [this] {
+      isEnded = true;
+      tellStatus();
+    });
     updateCommands();
   }
   QString subtitle() const override { return {}; }
   StepStatus status() const override { return {}; }
   QString hint() const override { return sentence; }
   PageCommand* primary() const override { return primaries_[static_cast<std::size_t>(step)]; }
-  std::vector<PageCommand*> secondary() const override { return {hold_, dark_, end_}; }
+  std::vector<PageCommand*> secondary() const override {
+    return isEnded ? std::vector<PageCommand*>() : std::vector{hold_, dark_, end_};
+  }
   void updateCommands() override {
     hold_->show(isHeld ? "Go on with all of it" : "Hold");
     dark_->show(isDark ? "Make it visible again" : "Dark");
@@ -52,7 +57,7 @@ class ScriptedPage : public PageModel {
   QStringList done;
   QString sentence, whyNoEnd;
   int step = 0;
-  bool isHeld = false, isDark = false;
+  bool isHeld = false, isDark = false, isEnded = false;
 
  private:
   std::vector<PageCommand*> primaries_;
@@ -152,6 +157,20 @@ class TestActionBar : public QObject {
     click("secondary-1", 10'000);
     click("secondary-1", 10, QEvent::MouseButtonDblClick);
     QVERIFY(!page_->isDark);
+  }
+
+  /// Law: who gives a command by keys that goes with it, stands at what comes next.
+  void keysStayWhereTheyWere() {
+    QWidget whole;
+    auto* column = new QVBoxLayout(&whole);
+    column->addWidget(new QPushButton("Of the rail"));
+    column->addWidget(bar_.get());
+    whole.show();
+    button("secondary-2")->setFocus();
+    QTest::keyClick(button("secondary-2"), Qt::Key_Space);
+    QVERIFY(page_->isEnded);
+    QCOMPARE(whole.focusWidget(), button("primary"));
+    bar_->setParent(nullptr);
   }
 
   /// Law: no word of the reason is cut, whatever the width, and however wide the buttons have become.

@@ -121,6 +121,7 @@ class TestWhatPlays : public QObject {
         const auto question = asked.front().front().value<FailureReport>();
         QVERIFY(question.isQuestion && question.reason);
         QCOMPARE(question.resume->text(), OutputPage::tr("Let it play"));
+        QVERIFY(isOpen || page_->primary() == nullptr);  // another one over it is not what comes next
         question.resume->trigger();
         QVERIFY(!question.reason);  // gone with the answer
       }

@@ -122,6 +122,33 @@ class TestMethodsTable : public QObject {
     QCOMPARE(page_->table()[static_cast<std::size_t>(rows.front().row())].method, page_->settings().method);
   }
 
+  /// Law: what is seen of the methods depends on the width, not on how many of them are computed.
+  void columnsStayWhileItIsComputed() {
+    QTRY_VERIFY_WITH_TIMEOUT(isComplete(), patience);
+    MethodsCard card(*page_);
+    card.show();
+    auto* table = card.findChild<QTableWidget*>("methods");
+    const auto hidden = [table] {
+      QList<bool> all;
+      for (int column = 0; column < table->columnCount(); ++column) all << table->isColumnHidden(column);
+      return all;
+    };
+    pipeline::ContentSettings content = page_->settings();
+    for (int width = 400; width <= 1000; width += 60) {
+      card.resize(width, card.height());
+      QCoreApplication::processEvents();
+      const QList<bool> complete = hidden();
+      QVERIFY(!complete.front());
+      content.blackLift = content.blackLift == 0.0 ? 0.01 : 0.0;
+      page_->setSettings(content);
+      QVERIFY(!isComplete());
+      while (!isComplete()) {
+        QCOMPARE(hidden(), complete);
+        QTest::qWait(5);
+      }
+    }
+  }
+
   /// Law: where there is little height the picture has it, without scrolling; the comparison is one click
   /// away, and folded it says which method is used and how well.
   void thePictureHasTheRoom_data() {

@@ -27,6 +27,26 @@ class TestVenueUse : public QObject {
   QTemporaryDir folder_;
   fs::path venue_;
 
+  /// Another program that shows `venue`. Asked to end it does so when `isPatient` is false; it must be
+  /// reaped.
+  static pid_t startShow(const fs::path& venue, bool isPatient) {
+    int ready[2];
+    if (pipe(ready) != 0) return -1;
+    const pid_t other = fork();
+    if (other == 0) {
+      if (isPatient) signal(SIGTERM, SIG_IGN);
+      const auto use = VenueUse::take(venue, Way::show);
+      const char answer = use ? 'y' : 'n';
+      [[maybe_unused]] const auto written = write(ready[1], &answer, 1);
+      for (;;) pause();
+    }
+    char answer = 0;
+    const bool isShowing = read(ready[0], &answer, 1) == 1 && answer == 'y';
+    close(ready[0]);
+    close(ready[1]);
+    return isShowing ? other : -1;
+  }
+
  private slots:
   void initTestCase() {
     QStandardPaths::setTestModeEnabled(true);
@@ -74,19 +94,9 @@ class TestVenueUse : public QObject {
   }
   void whoEndsUsesNothing() {
     QFETCH(bool, isAsked);
-    int ready[2];
-    QCOMPARE(pipe(ready), 0);
     QVERIFY(!VenueUse::end(venue_, Way::show));
-    const pid_t other = fork();
-    if (other == 0) {
-      const auto use = VenueUse::take(venue_, Way::show);
-      const char answer = use ? 'y' : 'n';
-      [[maybe_unused]] const auto written = write(ready[1], &answer, 1);
-      for (;;) pause();
-    }
-    char answer = 0;
-    QCOMPARE(read(ready[0], &answer, 1), 1);
-    QCOMPARE(answer, 'y');
+    const pid_t other = startShow(venue_, false);
+    QVERIFY(other > 0);
     QVERIFY(VenueUse::isTaken(venue_, Way::show));
     QVERIFY(!VenueUse::end(venue_, Way::wizard));
     QVERIFY(isAsked ? VenueUse::end(venue_, Way::show) : kill(other, SIGKILL) == 0);
@@ -95,8 +105,6 @@ class TestVenueUse : public QObject {
     QCOMPARE(WTERMSIG(status), isAsked ? SIGTERM : SIGKILL);
     QVERIFY(!VenueUse::isTaken(venue_, Way::show));
     QVERIFY(!VenueUse::end(venue_, Way::show));
-    close(ready[0]);
-    close(ready[1]);
   }
 
   void aSecondWizardDoesNotOpenIt() {
@@ -139,6 +147,24 @@ class TestVenueUse : public QObject {
     }
     QTRY_VERIFY_WITH_TIMEOUT(!venue.session.isShownElsewhere(), patience);
     QCOMPARE(told.size(), 2);
+  }
+
+  /// Law: between being asked and having ended, a show is said to end.
+  void aShowThatEndsIsSaidTo() {
+    SimulatedSession venue;
+    venue.begin();
+    const pid_t show = startShow(venue.path("venue"), true);
+    QVERIFY(show > 0);
+    QTRY_VERIFY_WITH_TIMEOUT(venue.session.isShownElsewhere(), patience);
+    QVERIFY(!venue.session.isOtherShowEnding());
+    QSignalSpy told(&venue.session, &Session::devicesChanged);
+    venue.session.endOtherShow();
+    QVERIFY(venue.session.isOtherShowEnding());
+    QCOMPARE(told.size(), 1);
+    QCOMPARE(kill(show, SIGKILL), 0);
+    QCOMPARE(waitpid(show, nullptr, 0), show);
+    QTRY_VERIFY_WITH_TIMEOUT(!venue.session.isShownElsewhere(), patience);
+    QVERIFY(!venue.session.isOtherShowEnding());
   }
 };
 

@@ -131,9 +131,11 @@ showBuildProgress() {
 
 # build PRESET [TARGET...]: configures and builds; silent when nothing has changed, the log only on failure.
 # $RELUCENT_WARNINGS_ARE_ERRORS: ON where no warning is to pass; else a stranger's newer compiler may warn.
+# $RELUCENT_TEST_OBJECTS: a build with the tests' own objects, which are taken from there.
 build() {
   local preset=$1 log=$root/build/$1.log targets=()
   local options=(${RELUCENT_WARNINGS_ARE_ERRORS:+"-DRELUCENT_WARNINGS_ARE_ERRORS=$RELUCENT_WARNINGS_ARE_ERRORS"})
+  [[ -z ${RELUCENT_TEST_OBJECTS:-} ]] || options+=("-DRELUCENT_TEST_OBJECTS=$RELUCENT_TEST_OBJECTS")
   shift
   (($#)) && targets=(--target "$@")
   mkdir -p "$root/build"

@@ -13,6 +13,7 @@
 #include "relucent/image/picture_files.h"
 #include "relucent/transport/difference.h"
 #include "relucent/transport/files.h"
+#include "support/sanitized.h"
 #include "system/command_venue.h"
 
 using namespace relucent;
@@ -136,9 +137,8 @@ class TestCommands : public QObject {
   /// Two projectors and two cameras, each by a script and of another size; what is measured of them is
   /// compensated and proved by the same scripts.
   void severalProjectorsAndCameras() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    QSKIP("programs start by the hundred, each with a sanitizer: one projector and camera do that already");
-#endif
+    if (isSanitized)
+      QSKIP("programs start by the hundred, each with a sanitizer: one projector and camera do that already");
     QTemporaryDir folder;
     const QString calibration = folder.filePath("calibration");
     QStringList arguments{"calibrate", calibration, "--levels", "9"};
@@ -199,9 +199,7 @@ class TestCommands : public QObject {
         QTest::addRow("%d MB, %s", megabytes, pixels) << megabytes << pixels;
   }
   void littleMemoryIsRefusedOrEnough() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    QSKIP("sanitizers map more than any limit");
-#endif
+    if (isSanitized) QSKIP("sanitizers map more than any limit");
     QFETCH(int, megabytes);
     QFETCH(QString, pixels);
     QTemporaryDir folder;

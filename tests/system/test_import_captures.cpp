@@ -7,6 +7,8 @@
 #include <QtTest>
 #include <opencv2/imgcodecs.hpp>
 
+#include "support/sanitized.h"
+
 namespace {
 
 /// The middle of each photograph, half as wide and half as high.
@@ -26,10 +28,10 @@ class TestImportCaptures : public QObject {
   Q_OBJECT
  private slots:
   void initTestCase() {
-#ifdef __SANITIZE_ADDRESS__
-    QSKIP(
-        "a real capture takes ten minutes under the address sanitizer; test_import runs the same code there");
-#endif
+    if (relucent::isSanitized)
+      QSKIP(
+          "a real capture takes ten minutes under the address sanitizer; test_import runs the same code "
+          "there");
   }
   void predictsWhatItWasNotShown_data() {
     QTest::addColumn<QString>("capture");

@@ -17,6 +17,7 @@
 #include <set>
 
 #include "relucent/base/random.h"
+#include "support/sanitized.h"
 #include "system/command_venue.h"
 
 using namespace relucent;
@@ -155,9 +156,9 @@ class TestKilled : public QObject {
   Q_OBJECT
  private slots:
   void initTestCase() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    QSKIP("some sixty whole runs of the program take an hour under a sanitizer; what is on disk is the same");
-#endif
+    if (isSanitized)
+      QSKIP(
+          "some sixty whole runs of the program take an hour under a sanitizer; what is on disk is the same");
   }
 
   /// Law: killed anywhere and resumed, however often, a calibration ends in the bits of an undisturbed one.

@@ -14,6 +14,7 @@
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/repair.h"
+#include "support/sanitized.h"
 
 using namespace relucent;
 using namespace relucent::pipeline;
@@ -59,9 +60,8 @@ class TestRepairKilled : public QObject {
 
  private slots:
   void initTestCase() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    QSKIP("so many runs of the program take long under a sanitizer; what is on disk is the same");
-#endif
+    if (isSanitized)
+      QSKIP("so many runs of the program take long under a sanitizer; what is on disk is the same");
     CalibrateSettings settings;
     venue::VenueSettings corner;
     corner.name = "corner";

@@ -324,6 +324,14 @@
             <numerusform>تم القياس؛ %n نمط أحدث محفوظ</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>أنهاه تغيّر</translation>
+    </message>
+    <message>
+        <source>Stopped at blocks of %1 px</source>
+        <translation>أُوقف عند كتل من ⁨%1 px⁩</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -632,6 +640,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.moved-besides</name>
+    <message>
+        <source>{}; besides, {}</source>
+        <translation>{}؛ وفوق ذلك {}</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -657,6 +672,13 @@
     <message>
         <source>put it back to within half a pixel, then try again</source>
         <translation>أعد الجهاز إلى موضعه بفارق لا يتجاوز نصف بكسل، ثم أعد المحاولة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back-and-restore-light</name>
+    <message>
+        <source>put it back to within half a pixel and restore the light of the room, then try again</source>
+        <translation>أعد الجهاز إلى موضعه بفارق لا يتجاوز نصف بكسل، وأعد إضاءة الغرفة كما كانت، ثم أعد المحاولة</translation>
     </message>
 </context>
 <context>
@@ -4045,6 +4067,10 @@
         <source>What was measured cannot be read.</source>
         <translation>تعذّرت قراءة ما قيس.</translation>
     </message>
+    <message>
+        <source>%1: what was photographed since the check before is taken again.</source>
+        <translation>%1: ما صُوّر منذ الفحص السابق يُعاد تصويره.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4218,6 +4244,10 @@
     <message>
         <source>Back</source>
         <translation>رجوع</translation>
+    </message>
+    <message>
+        <source>Show where</source>
+        <translation>أين؟</translation>
     </message>
 </context>
 <context>
@@ -6994,6 +7024,38 @@ projector %2</source>
     <message>
         <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
         <translation>تُركت على بُعد ⁨%1⁩ بكسل من حيث كانت موجَّهة عند القياس. أعِدها إلى مكانها، أو أصلح المعايرة.</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or measure again.</source>
+        <translation>أعد الكاميرا إلى مكانها، أو قِس من جديد.</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure again.</source>
+        <translation>تغيّر شيء ما. قِس من جديد.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>لا يكاد شيء يتطابق. أعد الكاميرا إلى مكانها، أو وجّه وقِس من جديد.</translation>
+    </message>
+    <message>
+        <source>Keep the repaired one</source>
+        <translation>الاحتفاظ بالمُصلَح</translation>
+    </message>
+    <message>
+        <source>Use the measurement before?</source>
+        <translation>استخدام القياس السابق؟</translation>
+    </message>
+    <message>
+        <source>What was repaired is measured again if you repair once more.</source>
+        <translation>ما أُصلح يُقاس من جديد إذا أصلحت مرة أخرى.</translation>
+    </message>
+    <message>
+        <source>The measurement from before the repair is used as it was, with all that followed from it.</source>
+        <translation>يُستخدم القياس السابق للإصلاح كما كان، مع كل ما نتج عنه.</translation>
+    </message>
+    <message>
+        <source>Screen %1, which this plays on</source>
+        <translation>الشاشة %1، وهي التي يُعرض عليها</translation>
     </message>
 </context>
 <context>

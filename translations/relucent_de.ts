@@ -312,6 +312,14 @@
             <numerusform>Gemessen; %n neuere Muster sind sicher</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>Durch Änderung beendet</translation>
+    </message>
+    <message>
+        <source>Stopped at blocks of %1 px</source>
+        <translation>Gestoppt bei Blöcken von %1 px</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -612,6 +620,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.moved-besides</name>
+    <message>
+        <source>{}; besides, {}</source>
+        <translation>{}; außerdem {}</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -637,6 +652,13 @@
     <message>
         <source>put it back to within half a pixel, then try again</source>
         <translation>stellen Sie das Gerät auf ein halbes Pixel genau zurück, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back-and-restore-light</name>
+    <message>
+        <source>put it back to within half a pixel and restore the light of the room, then try again</source>
+        <translation>stellen Sie das Gerät auf ein halbes Pixel genau zurück und das Raumlicht wieder her, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
@@ -3957,6 +3979,10 @@
         <source>What was measured cannot be read.</source>
         <translation>Das Gemessene lässt sich nicht lesen.</translation>
     </message>
+    <message>
+        <source>%1: what was photographed since the check before is taken again.</source>
+        <translation>%1: Was seit der vorigen Kontrolle fotografiert wurde, wird wiederholt.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4130,6 +4156,10 @@
     <message>
         <source>Back</source>
         <translation>Zurück</translation>
+    </message>
+    <message>
+        <source>Show where</source>
+        <translation>Wo?</translation>
     </message>
 </context>
 <context>
@@ -6850,6 +6880,38 @@ Projektor %2</translation>
     <message>
         <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
         <translation>Sie blieb %1 px neben der Stelle stehen, auf die sie bei der Messung sah. Stellen Sie sie zurück oder reparieren Sie die Kalibrierung.</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or measure again.</source>
+        <translation>Stellen Sie die Kamera zurück, oder messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure again.</source>
+        <translation>Etwas hat sich verändert. Messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>Kaum etwas passt. Stellen Sie die Kamera zurück, oder richten Sie aus und messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>Keep the repaired one</source>
+        <translation>Reparierte behalten</translation>
+    </message>
+    <message>
+        <source>Use the measurement before?</source>
+        <translation>Vorige Messung verwenden?</translation>
+    </message>
+    <message>
+        <source>What was repaired is measured again if you repair once more.</source>
+        <translation>Was repariert wurde, wird neu gemessen, wenn Sie noch einmal reparieren.</translation>
+    </message>
+    <message>
+        <source>The measurement from before the repair is used as it was, with all that followed from it.</source>
+        <translation>Die Messung von vor der Reparatur wird verwendet, wie sie war, mit allem, was aus ihr folgte.</translation>
+    </message>
+    <message>
+        <source>Screen %1, which this plays on</source>
+        <translation>Bildschirm %1, auf dem dies spielt</translation>
     </message>
 </context>
 <context>

@@ -312,6 +312,14 @@
             <numerusform>Medido; %n patrones más nuevos a salvo</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>Terminada por un cambio</translation>
+    </message>
+    <message>
+        <source>Stopped at blocks of %1 px</source>
+        <translation>Detenida en bloques de %1 px</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -612,6 +620,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.moved-besides</name>
+    <message>
+        <source>{}; besides, {}</source>
+        <translation>{}; además, {}</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -637,6 +652,13 @@
     <message>
         <source>put it back to within half a pixel, then try again</source>
         <translation>vuelva a colocarlo en su sitio con una precisión de medio píxel e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back-and-restore-light</name>
+    <message>
+        <source>put it back to within half a pixel and restore the light of the room, then try again</source>
+        <translation>vuelva a colocarlo en su sitio con una precisión de medio píxel, deje la luz de la sala como estaba e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
@@ -3957,6 +3979,10 @@
         <source>What was measured cannot be read.</source>
         <translation>Lo medido no se puede leer.</translation>
     </message>
+    <message>
+        <source>%1: what was photographed since the check before is taken again.</source>
+        <translation>%1: lo fotografiado desde el control anterior se repite.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4130,6 +4156,10 @@
     <message>
         <source>Back</source>
         <translation>Atrás</translation>
+    </message>
+    <message>
+        <source>Show where</source>
+        <translation>¿Dónde?</translation>
     </message>
 </context>
 <context>
@@ -6850,6 +6880,38 @@ proyector %2</translation>
     <message>
         <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
         <translation>Quedó a %1 px de donde miraba al medir. Devuélvala a su sitio o repare la calibración.</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or measure again.</source>
+        <translation>Recoloque la cámara o mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure again.</source>
+        <translation>Algo ha cambiado. Mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>Casi nada encaja. Devuelva la cámara a su sitio, o apunte y mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>Keep the repaired one</source>
+        <translation>Conservar la reparada</translation>
+    </message>
+    <message>
+        <source>Use the measurement before?</source>
+        <translation>¿Usar la medición anterior?</translation>
+    </message>
+    <message>
+        <source>What was repaired is measured again if you repair once more.</source>
+        <translation>Lo reparado se mide de nuevo si repara otra vez.</translation>
+    </message>
+    <message>
+        <source>The measurement from before the repair is used as it was, with all that followed from it.</source>
+        <translation>La medición de antes de la reparación se usa tal como era, con todo lo que siguió de ella.</translation>
+    </message>
+    <message>
+        <source>Screen %1, which this plays on</source>
+        <translation>Pantalla %1, en la que se reproduce</translation>
     </message>
 </context>
 <context>

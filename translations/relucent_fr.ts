@@ -312,6 +312,14 @@
             <numerusform>Mesuré ; %n motifs plus récents en sûreté</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>Terminée par un changement</translation>
+    </message>
+    <message>
+        <source>Stopped at blocks of %1 px</source>
+        <translation>Arrêtée à des blocs de %1 px</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -612,6 +620,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.moved-besides</name>
+    <message>
+        <source>{}; besides, {}</source>
+        <translation>{} ; de plus, {}</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -637,6 +652,13 @@
     <message>
         <source>put it back to within half a pixel, then try again</source>
         <translation>remettez l’appareil en place à un demi-pixel près, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back-and-restore-light</name>
+    <message>
+        <source>put it back to within half a pixel and restore the light of the room, then try again</source>
+        <translation>remettez l’appareil en place à un demi-pixel près et la lumière de la salle comme avant, puis réessayez</translation>
     </message>
 </context>
 <context>
@@ -3957,6 +3979,10 @@
         <source>What was measured cannot be read.</source>
         <translation>Les mesures ne peuvent pas être lues.</translation>
     </message>
+    <message>
+        <source>%1: what was photographed since the check before is taken again.</source>
+        <translation>%1 : ce qui a été photographié depuis le contrôle précédent est repris.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4130,6 +4156,10 @@
     <message>
         <source>Back</source>
         <translation>Retour</translation>
+    </message>
+    <message>
+        <source>Show where</source>
+        <translation>Où ?</translation>
     </message>
 </context>
 <context>
@@ -6850,6 +6880,38 @@ projecteur %2</translation>
     <message>
         <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
         <translation>Elle est restée à %1 px de sa visée lors de la mesure. Remettez-la en place ou réparez le calibrage.</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or measure again.</source>
+        <translation>Replacez la caméra ou mesurez à nouveau.</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure again.</source>
+        <translation>Quelque chose a changé. Mesurez à nouveau.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>Presque rien ne correspond. Remettez la caméra en place, ou visez et mesurez à nouveau.</translation>
+    </message>
+    <message>
+        <source>Keep the repaired one</source>
+        <translation>Garder la réparée</translation>
+    </message>
+    <message>
+        <source>Use the measurement before?</source>
+        <translation>Utiliser la mesure d’avant ?</translation>
+    </message>
+    <message>
+        <source>What was repaired is measured again if you repair once more.</source>
+        <translation>Ce qui a été réparé sera mesuré à nouveau si vous réparez encore une fois.</translation>
+    </message>
+    <message>
+        <source>The measurement from before the repair is used as it was, with all that followed from it.</source>
+        <translation>La mesure d’avant la réparation est utilisée telle qu’elle était, avec tout ce qui en découlait.</translation>
+    </message>
+    <message>
+        <source>Screen %1, which this plays on</source>
+        <translation>Écran %1, sur lequel ceci est diffusé</translation>
     </message>
 </context>
 <context>

@@ -312,6 +312,14 @@
             <numerusform>Misurato; %n pattern più recenti al sicuro</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>Finita per un cambiamento</translation>
+    </message>
+    <message>
+        <source>Stopped at blocks of %1 px</source>
+        <translation>Fermata a blocchi di %1 px</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -612,6 +620,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.moved-besides</name>
+    <message>
+        <source>{}; besides, {}</source>
+        <translation>{}; inoltre, {}</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -637,6 +652,13 @@
     <message>
         <source>put it back to within half a pixel, then try again</source>
         <translation>riportarlo in posizione entro mezzo pixel, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back-and-restore-light</name>
+    <message>
+        <source>put it back to within half a pixel and restore the light of the room, then try again</source>
+        <translation>riportarlo in posizione entro mezzo pixel e la luce della sala com’era, poi riprovare</translation>
     </message>
 </context>
 <context>
@@ -3957,6 +3979,10 @@
         <source>What was measured cannot be read.</source>
         <translation>Quanto misurato non si può leggere.</translation>
     </message>
+    <message>
+        <source>%1: what was photographed since the check before is taken again.</source>
+        <translation>%1: ciò che è stato fotografato dal controllo precedente viene ripetuto.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4130,6 +4156,10 @@
     <message>
         <source>Back</source>
         <translation>Indietro</translation>
+    </message>
+    <message>
+        <source>Show where</source>
+        <translation>Dove?</translation>
     </message>
 </context>
 <context>
@@ -6850,6 +6880,38 @@ proiettore %2</translation>
     <message>
         <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
         <translation>È rimasta a %1 px da dove guardava durante la misura. Rimetterla al suo posto o riparare la calibrazione.</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or measure again.</source>
+        <translation>Rimettere a posto la fotocamera o misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure again.</source>
+        <translation>Qualcosa è cambiato. Misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>Quasi nulla corrisponde. Rimettere la fotocamera al suo posto, oppure puntare e misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Keep the repaired one</source>
+        <translation>Tieni la riparata</translation>
+    </message>
+    <message>
+        <source>Use the measurement before?</source>
+        <translation>Usare la misura precedente?</translation>
+    </message>
+    <message>
+        <source>What was repaired is measured again if you repair once more.</source>
+        <translation>Ciò che è stato riparato viene misurato di nuovo se si ripara un’altra volta.</translation>
+    </message>
+    <message>
+        <source>The measurement from before the repair is used as it was, with all that followed from it.</source>
+        <translation>La misura precedente alla riparazione viene usata com’era, con tutto ciò che ne seguiva.</translation>
+    </message>
+    <message>
+        <source>Screen %1, which this plays on</source>
+        <translation>Schermo %1, su cui si riproduce</translation>
     </message>
 </context>
 <context>

@@ -309,6 +309,14 @@
             <numerusform>測定済み、新しい %n パターンは保存済み</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>変化により終了</translation>
+    </message>
+    <message>
+        <source>Stopped at blocks of %1 px</source>
+        <translation>%1 px のブロックで停止</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -607,6 +615,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.moved-besides</name>
+    <message>
+        <source>{}; besides, {}</source>
+        <translation>{}。さらに、{}</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -632,6 +647,13 @@
     <message>
         <source>put it back to within half a pixel, then try again</source>
         <translation>ずれが半画素以内になるように元の位置に戻してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back-and-restore-light</name>
+    <message>
+        <source>put it back to within half a pixel and restore the light of the room, then try again</source>
+        <translation>ずれが半画素以内になるように元の位置に戻し、部屋の照明を元に戻してから、再試行してください</translation>
     </message>
 </context>
 <context>
@@ -3935,6 +3957,10 @@
         <source>What was measured cannot be read.</source>
         <translation>測定内容を読み込めません。</translation>
     </message>
+    <message>
+        <source>%1: what was photographed since the check before is taken again.</source>
+        <translation>%1：前回の確認以降に撮影したものを撮り直しています。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4108,6 +4134,10 @@
     <message>
         <source>Back</source>
         <translation>戻る</translation>
+    </message>
+    <message>
+        <source>Show where</source>
+        <translation>場所を表示</translation>
     </message>
 </context>
 <context>
@@ -6814,6 +6844,38 @@ projector %2</source>
     <message>
         <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
         <translation>測定時の向きから %1 px ずれたままです。元に戻すか、校正を修復してください。</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or measure again.</source>
+        <translation>カメラを元に戻すか、測定し直してください。</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure again.</source>
+        <translation>何かが変わりました。測定し直してください。</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>ほとんど一致しません。カメラを元に戻すか、向きを合わせて測定し直してください。</translation>
+    </message>
+    <message>
+        <source>Keep the repaired one</source>
+        <translation>修復したものを使い続ける</translation>
+    </message>
+    <message>
+        <source>Use the measurement before?</source>
+        <translation>以前の測定を使いますか？</translation>
+    </message>
+    <message>
+        <source>What was repaired is measured again if you repair once more.</source>
+        <translation>修復した部分は、もう一度修復すると測定し直されます。</translation>
+    </message>
+    <message>
+        <source>The measurement from before the repair is used as it was, with all that followed from it.</source>
+        <translation>修復前の測定が、それに基づくすべてとともに、元のまま使われます。</translation>
+    </message>
+    <message>
+        <source>Screen %1, which this plays on</source>
+        <translation>画面 %1（再生先）</translation>
     </message>
 </context>
 <context>

@@ -309,6 +309,14 @@
             <numerusform>已测量；%n 个更新的图案已安全保存</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>因变化而结束</translation>
+    </message>
+    <message>
+        <source>Stopped at blocks of %1 px</source>
+        <translation>在 %1 px 的块处停止</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -607,6 +615,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.moved-besides</name>
+    <message>
+        <source>{}; besides, {}</source>
+        <translation>{}；此外，{}</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -632,6 +647,13 @@
     <message>
         <source>put it back to within half a pixel, then try again</source>
         <translation>请将其复位到相差不超过半个像素，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back-and-restore-light</name>
+    <message>
+        <source>put it back to within half a pixel and restore the light of the room, then try again</source>
+        <translation>请将其复位到相差不超过半个像素，并将房间的灯光恢复原状，然后重试</translation>
     </message>
 </context>
 <context>
@@ -3935,6 +3957,10 @@
         <source>What was measured cannot be read.</source>
         <translation>无法读取测得的内容。</translation>
     </message>
+    <message>
+        <source>%1: what was photographed since the check before is taken again.</source>
+        <translation>%1：上次检查以来拍摄的内容正在重新拍摄。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4108,6 +4134,10 @@
     <message>
         <source>Back</source>
         <translation>返回</translation>
+    </message>
+    <message>
+        <source>Show where</source>
+        <translation>在哪里</translation>
     </message>
 </context>
 <context>
@@ -6814,6 +6844,38 @@ projector %2</source>
     <message>
         <source>It was left %1 px from where it looked when it was measured. Put it back, or repair the calibration.</source>
         <translation>它停在距测量时所对位置 %1 px 处。请放回原位，或修复校准。</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or measure again.</source>
+        <translation>请把相机放回原位，或重新测量。</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure again.</source>
+        <translation>有些东西变了。请重新测量。</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Put the camera back, or aim and measure again.</source>
+        <translation>几乎全都不符。请把相机放回原位，或重新对准并测量。</translation>
+    </message>
+    <message>
+        <source>Keep the repaired one</source>
+        <translation>保留修复后的</translation>
+    </message>
+    <message>
+        <source>Use the measurement before?</source>
+        <translation>使用之前的测量？</translation>
+    </message>
+    <message>
+        <source>What was repaired is measured again if you repair once more.</source>
+        <translation>如果再次修复，已修复的部分将重新测量。</translation>
+    </message>
+    <message>
+        <source>The measurement from before the repair is used as it was, with all that followed from it.</source>
+        <translation>将按原样使用修复之前的测量，以及由它得出的一切。</translation>
+    </message>
+    <message>
+        <source>Screen %1, which this plays on</source>
+        <translation>屏幕 %1（正在其上播放）</translation>
     </message>
 </context>
 <context>

@@ -164,6 +164,15 @@ Alarm movedAlarm(std::size_t camera, const Movement& movement, Message advice) {
       std::move(advice));
 }
 
+/// Beside another light: putting that right alone would leave what moved where it is.
+Alarm movedBesides(const Alarm& moved, const Alarm& ambient) {
+  return alarm(AlarmKind::moved,
+               RELUCENT_MESSAGE("alarm.moved-besides", "{}; besides, {}").with(moved.what, ambient.what),
+               RELUCENT_MESSAGE(
+                   "alarm.put-it-back-and-restore-light",
+                   "put it back to within half a pixel and restore the light of the room, then try again"));
+}
+
 Alarm changedAlarm(std::size_t camera, const Views& views) {
   const double share = static_cast<double>(views.changed) / static_cast<double>(views.before.size().count());
   return alarm(
@@ -342,8 +351,11 @@ Reading readingOf(const Check& now, const Baseline& baseline) {
 std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {
   double power = lampPower(now, baseline.first, baseline.references);
   if (auto dark = inspectDarkness(now, baseline, power)) return dark;
-  if (auto ambient = inspectAmbient(now, baseline)) return ambient;
-  if (auto view = inspectView(now, baseline, power)) return view;
+  const std::optional<Alarm> ambient = inspectAmbient(now, baseline);
+  const std::optional<Alarm> view = inspectView(now, baseline, power);
+  if (ambient && view && view->kind == AlarmKind::moved) return movedBesides(*view, *ambient);
+  if (ambient) return ambient;  // light that came between the two pictures looks like a change of the view
+  if (view) return view;
   if (std::abs(power / baseline.power - 1.0) > reading_limit::lamp)
     return alarm(AlarmKind::lampChanged,
                  RELUCENT_MESSAGE("alarm.lamp-changed",

@@ -41,7 +41,8 @@ double lampPower(const Check& now, const FirstCheck& first, const photography::R
 /// A check in numbers, its shot, flicker and alarm left open: as inspect() compares them.
 Reading readingOf(const Check& now, const Baseline& baseline);
 
-/// Compares a check with what is expected. The most fundamental finding only.
+/// Compares a check with what is expected. The most fundamental finding only; but of a view that moved while
+/// the room's light changed, both.
 std::optional<Alarm> inspect(const Check& now, const Baseline& baseline);
 
 /// Whether the reference picture on one projector appears at all, and the right way round. Its colours are

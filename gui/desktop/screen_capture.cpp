@@ -4,6 +4,8 @@
 #include <xcb/randr.h>
 #include <xcb/xcb.h>
 
+#include <QCoreApplication>
+#include <cstdint>
 #include <utility>
 
 #include "desktop/xcb_reply.h"
@@ -54,16 +56,38 @@ QString titleOf(xcb_connection_t* x, xcb_window_t window, xcb_atom_t netName) {
   return {};
 }
 
-/// All windows with a title, the ones in front first.
-std::vector<Window> titledWindows(xcb_connection_t* x, xcb_window_t under, xcb_atom_t netName) {
+/// What people see: others are a desktop's and toolkits' own, as large as a dot or nowhere.
+bool isSeen(xcb_connection_t* x, xcb_window_t window) {
+  constexpr int leastSide = 8;
+  const auto attributes =
+      owned(xcb_get_window_attributes_reply(x, xcb_get_window_attributes(x, window), nullptr));
+  const auto place = owned(xcb_get_geometry_reply(x, xcb_get_geometry(x, window), nullptr));
+  return attributes && place && attributes->map_state == XCB_MAP_STATE_VIEWABLE &&
+         place->width >= leastSide && place->height >= leastSide;
+}
+
+bool isOfThisProgram(xcb_connection_t* x, xcb_window_t window, xcb_atom_t netProcess) {
+  const auto property = owned(xcb_get_property_reply(
+      x, xcb_get_property(x, 0, window, netProcess, XCB_ATOM_CARDINAL, 0, 1), nullptr));
+  return property && property->value_len == 1 &&
+         *static_cast<const std::uint32_t*>(xcb_get_property_value(property.get())) ==
+             static_cast<std::uint32_t>(QCoreApplication::applicationPid());
+}
+
+/// Names by which windows tell of themselves.
+struct WindowAtoms {
+  xcb_atom_t name, process;
+};
+
+std::vector<Window> titledWindows(xcb_connection_t* x, xcb_window_t under, const WindowAtoms& atoms) {
   std::vector<Window> found;
   auto tree = owned(xcb_query_tree_reply(x, xcb_query_tree(x, under), nullptr));
   if (!tree) return found;
   const xcb_window_t* children = xcb_query_tree_children(tree.get());
   for (int i = xcb_query_tree_children_length(tree.get()) - 1; i >= 0; --i) {
-    if (QString title = titleOf(x, children[i], netName); !title.isEmpty())
-      found.push_back({children[i], title});
-    for (auto& inner : titledWindows(x, children[i], netName)) found.push_back(std::move(inner));
+    if (QString title = titleOf(x, children[i], atoms.name); !title.isEmpty() && isSeen(x, children[i]))
+      found.push_back({children[i], title, isOfThisProgram(x, children[i], atoms.process)});
+    for (auto& inner : titledWindows(x, children[i], atoms)) found.push_back(std::move(inner));
   }
   return found;
 }
@@ -111,7 +135,8 @@ std::vector<Screen> ScreenCapture::screens() const {
 
 std::vector<Window> ScreenCapture::windows() const {
   if (!isConnected()) return {};
-  return titledWindows(server_->x, server_->root, atomOf(server_->x, "_NET_WM_NAME"));
+  return titledWindows(server_->x, server_->root,
+                       {atomOf(server_->x, "_NET_WM_NAME"), atomOf(server_->x, "_NET_WM_PID")});
 }
 
 QImage ScreenCapture::ofScreen(const QString& name) const {

@@ -20,6 +20,7 @@ class ScreenCapture {
   struct Window {
     quint32 number = 0;  // as xwininfo tells it
     QString title;
+    bool isOwn = false;  // of this program
   };
 
   ScreenCapture();
@@ -28,7 +29,7 @@ class ScreenCapture {
   /// False: there is no X server, hence no screens and no windows.
   bool isConnected() const;
   std::vector<Screen> screens() const;
-  /// All windows with a title, the ones in front first.
+  /// All windows with a title that are there to be seen, the ones in front first.
   std::vector<Window> windows() const;
 
   /// Null if there is no such one, or it cannot be read now.

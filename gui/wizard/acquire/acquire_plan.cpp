@@ -100,6 +100,8 @@ std::vector<BlockLevel> AcquirePage::levels() const {
   }
   // What it ended before needed none.
   while (isDone() && !levels.empty() && !levels.back().isKnown) levels.pop_back();
+  // What was photographed of finer ones was left out.
+  while (isDone() && !levels.empty() && levels.back().block < stoppedAt()) levels.pop_back();
   return levels;
 }
 

@@ -211,7 +211,8 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
   bool room = isRoomSteady(now);
   bool view = !isOf(now, {sentinels::AlarmKind::moved, sentinels::AlarmKind::localChange,
                           sentinels::AlarmKind::mirroredScreen, sentinels::AlarmKind::wrongScreen,
-                          sentinels::AlarmKind::coveredLens});
+                          sentinels::AlarmKind::coveredLens}) &&
+              now.view < sentinels::reading_limit::view;
   bool lamp = !isOf(now, {sentinels::AlarmKind::lampChanged, sentinels::AlarmKind::projectorAsleep});
   bool even = now.flicker < sentinels::reading_limit::flicker;
   std::array<WatchState, 4> states{
@@ -234,6 +235,10 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
       state = {false, true, isPutRight_ ? tr("Put right") : tr("Photographed again"),
                tr("Looked at again at the next check.")};
   return states;
+}
+
+std::optional<sentinels::AlarmKind> AcquisitionTrace::isTakingAgain() const {
+  return !points_.empty() && !isRecalled_ && isAnswered() ? points_.back().reading.alarm : std::nullopt;
 }
 
 /// What the last check found was taken again since.

@@ -72,6 +72,8 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   Growth growth() const;
   /// As it was seen last; none before it was.
   std::optional<RoomLight> roomLight() const;
+  /// Why patterns are being photographed again: what the last check found, until the next one.
+  std::optional<sentinels::AlarmKind> isTakingAgain() const;
   /// The last ones, newest first.
   std::vector<TakenAgain> takenAgain(std::size_t most) const;
 

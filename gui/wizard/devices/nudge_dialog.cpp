@@ -2,6 +2,7 @@
 #include "wizard/devices/nudge_dialog.h"
 
 #include <QPainter>
+#include <QPointer>
 #include <cmath>
 
 #include "relucent/pipeline/pictures.h"
@@ -191,7 +192,11 @@ void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge,
   looking->setParent(dialog);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowModality(Qt::WindowModal);
-  QObject::connect(dialog, &QDialog::finished, looking, [looking, done] { done(looking->sight()); });
+  // A desktop may give the keyboard to what plays on the projector instead.
+  QObject::connect(dialog, &QDialog::finished, looking, [looking, done, whole = QPointer(above.window())] {
+    done(looking->sight());
+    if (whole) whole->activateWindow();
+  });
   looking->start();
   dialog->show();
 }

@@ -42,6 +42,9 @@ ActionBar::ActionBar(Wizard& wizard, QWidget* parent) : QFrame(parent), wizard_(
   sentence->addWidget(new IconLabel(Icon::information, secondaryColour, 18));
   sentence->addWidget(hint_ = labelOf({}, "secondary"), 1);
   hint_->setObjectName("hint");
+  sentence->addWidget(remedy_ = buttonOf(tr("Show where"), "flat"));
+  remedy_->setObjectName("remedy");
+  connect(remedy_, &QPushButton::clicked, this, [this] { Q_EMIT wizard_.currentPage().remedyWanted(); });
   hint_->installEventFilter(this);
   secondary_ = new QWidget;
   auto* others = new QHBoxLayout(secondary_);
@@ -130,6 +133,7 @@ void ActionBar::refresh() {
   back_->setVisible(wizard_.canGoBack());
   back_->setIcon(iconOf(Icon::back, colours().text));
   hint_->setText(hint);
+  remedy_->setVisible(page.hasRemedy());
   if (page.hasRemedy())
     hint_->setCursor(Qt::PointingHandCursor);
   else
@@ -169,8 +173,8 @@ void ActionBar::arrange() {
   for (QWidget* widget : {static_cast<QWidget*>(back_), secondary_, static_cast<QWidget*>(primary_)})
     if (!widget->isHidden())
       buttons += spacing + std::max(widget->sizeHint().width(), widget->minimumWidth());
-  const int icon = 18 + spacing;
-  const int whole = width() - 2 * space::page - icon;
+  const int icon = 18 + spacing, remedy = remedy_->isHidden() ? 0 : remedy_->sizeHint().width() + spacing;
+  const int whole = width() - 2 * space::page - icon - remedy;
   const int beside = whole - buttons;
   const int free = rowHeight - std::max(progress_->sizeHint().height(), +space::small);
   const bool isOneRow = beside >= hint_->minimumSizeHint().width() && hint_->heightForWidth(beside) <= free;
@@ -183,7 +187,9 @@ void ActionBar::arrange() {
   constexpr int above = 10, below = 14;
   grid_->setContentsMargins(space::page, isOneRow ? 0 : above, space::page, isOneRow ? 0 : below);
   grid_->setVerticalSpacing(isOneRow ? 0 : +space::small);
-  setFixedHeight(isOneRow ? rowHeight : rowHeight + space::small + hint_->heightForWidth(std::max(1, whole)));
+  const int reason = std::max(hint_->heightForWidth(std::max(1, whole)),
+                              remedy_->isHidden() ? 0 : remedy_->sizeHint().height());
+  setFixedHeight(isOneRow ? rowHeight : rowHeight + space::small + reason);
 }
 
 void ActionBar::refreshSecondary(const std::vector<PageCommand*>& commands) {

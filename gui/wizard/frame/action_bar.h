@@ -44,6 +44,7 @@ class ActionBar : public QFrame {
   Wizard& wizard_;
   QProgressBar* progress_;
   QPushButton *back_, *primary_;
+  QPushButton* remedy_;  // leads to where what the hint asks for is done
   QWidget* reason_;
   QLabel* hint_;
   QGridLayout* grid_;

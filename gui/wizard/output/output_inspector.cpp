@@ -194,9 +194,12 @@ void showDrift(Remark& remark, const OutputProof& proof, bool hasMoved) {
     meaning +=
         '\n' +
         OutputPage::tr("The projector gives %1 of the light that it gave.").arg(percentText(drift->lamp));
+  const bool mayRepair = !proof.isBeyondRepair();
   if (hasMoved && drift->verdict != acquisition::Verdict::stillGood)
     return remark.show(Remark::Kind::warning,
-                       OutputPage::tr("Put the camera back, or repair the calibration."), meaning);
+                       mayRepair ? OutputPage::tr("Put the camera back, or repair the calibration.")
+                                 : OutputPage::tr("Put the camera back, or measure again."),
+                       meaning);
   switch (drift->verdict) {
     case acquisition::Verdict::stillGood:
       return remark.show(Remark::Kind::good, OutputPage::tr("The measurement still holds"), meaning);
@@ -206,17 +209,20 @@ void showDrift(Remark& remark, const OutputProof& proof, bool hasMoved) {
           acquisition::isRoomChanged(drift->ambient)
               ? OutputPage::tr(
                     "The room's light has changed. Restore it and check again, or repair the calibration.")
-              : OutputPage::tr("Something has changed. Repair the calibration."),
+          : mayRepair ? OutputPage::tr("Something has changed. Repair the calibration.")
+                      : OutputPage::tr("Something has changed. Measure again."),
           meaning);
     case acquisition::Verdict::startAgain:
       return remark.show(
           Remark::Kind::failed,
-          acquisition::isLightSeen(drift->lamp)
+          !acquisition::isLightSeen(drift->lamp)
+              ? OutputPage::tr("Almost nothing of the projector's light is seen. Look at the lens and at the "
+                               "projector, then check again.")
+          : mayRepair
               ? OutputPage::tr(
                     "Hardly anything fits. Put the camera back or repair the calibration; if neither "
                     "helps, aim and measure again.")
-              : OutputPage::tr("Almost nothing of the projector's light is seen. Look at the lens and at the "
-                               "projector, then check again."),
+              : OutputPage::tr("Hardly anything fits. Put the camera back, or aim and measure again."),
           meaning);
   }
 }

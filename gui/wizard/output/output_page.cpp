@@ -27,6 +27,8 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   measureAgain_ = addCommand(Icon::retry, [this] { Q_EMIT stepWanted("acquire"); });
   removeShow_ = addCommand(Icon::remove, [this] { removeInstalled(); });
   keepShow_ = addCommand(Icon::power, [] {});
+  undoRepair_ = addCommand(Icon::back, [this] { undoRepair(); });
+  keepRepair_ = addCommand(Icon::tick, [this] { undoing_.reset(); });
   aimAgain_ = addCommand(Icon::camera, [this] { Q_EMIT stepWanted("camera"); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   endChart_ = addCommand(Icon::play, [this] { projection_.endChart(); });
@@ -211,8 +213,10 @@ QString OutputPage::hint() const {
       case OutputProof::Next::measureAgain:
         return tr("Something has changed since it was measured. Measure again, then install.");
       case OutputProof::Next::aimAgain:
-        return tr(
-            "Hardly anything fits. Put the camera back, repair the calibration, or aim and measure again.");
+        return proof_.isBeyondRepair()
+                   ? tr("Hardly anything fits. Put the camera back, or aim and measure again.")
+                   : tr("Hardly anything fits. Put the camera back, repair the calibration, or aim and "
+                        "measure again.");
       case OutputProof::Next::install:
         return playingHint();
     }

@@ -57,6 +57,8 @@ class OutputPage : public DevicePage {
   std::optional<std::size_t> screenOf(std::size_t projector) const {
     return projector < chosen_.size() ? chosen_[projector] : std::nullopt;
   }
+  /// Of the screens that are the projectors.
+  QStringList connectors() const;
   /// The one that was chosen for the shown projector and is not there now; empty: it is, or none was chosen.
   QString missingScreen() const;
   /// A step's light stands on the projectors' screens before what plays.
@@ -133,8 +135,9 @@ class OutputPage : public DevicePage {
   }
   /// Makes the calibration fit what the venue has become. Real devices have the output closed meanwhile.
   void repair();
-  /// The measurement from before the repair is used again.
-  void undoRepair() { proof_.undoRepair(); }
+  /// The measurement from before the repair is used again, and shown: not without a question, as there is no
+  /// way back but repairing once more.
+  void askToUndoRepair();
   /// Shows full light and looks, until pushedBack(): nudgeWanted() asks for what shows that.
   void pushBack();
   /// What the devices were looked at with is gone. `last`: seen before that; none: nothing was.
@@ -195,6 +198,7 @@ class OutputPage : public DevicePage {
   void whileClosed(const std::function<void()>& work);
   void proofEnded();
   void repairEnded();
+  void undoRepair();
   void lookAtPicture();
   Canvas canvasOfPicture() const;
   void perfectingEnded(bool isOther);
@@ -205,6 +209,8 @@ class OutputPage : public DevicePage {
   PageCommand *open_, *install_, *freeze_, *black_, *close_;
   PageCommand *prove_, *checkDrift_, *repair_, *pushBack_, *measureAgain_, *removeShow_, *keepShow_,
       *aimAgain_;  // what comes before installing
+  PageCommand *undoRepair_, *keepRepair_;
+  std::unique_ptr<QObject> undoing_;  // while that is asked
   PageCommand *renew_, *endChart_, *stop_;
   PageCommand *goOnMeasuring_, *review_;  // of the banner
   OutputPlaylist playlist_;

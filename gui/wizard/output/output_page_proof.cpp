@@ -53,6 +53,30 @@ void OutputPage::repairEnded() {
   proofEnded();
 }
 
+void OutputPage::askToUndoRepair() {
+  if (!whyNoPhotograph().isEmpty() || !proof_.repairNote()) return;
+  undoRepair_->show(tr("Use the measurement before"));
+  keepRepair_->show(tr("Keep the repaired one"));
+  undoing_ = std::make_unique<QObject>();
+  FailureReport question;
+  question.isQuestion = question.endsWork = true;
+  question.failure.heading = tr("Use the measurement before?");
+  question.failure.what = tr("What was repaired is measured again if you repair once more.");
+  question.safe =
+      tr("The measurement from before the repair is used as it was, with all that followed from it.");
+  question.goOn = undoRepair_;
+  question.resume = keepRepair_;
+  question.reason = undoing_.get();
+  Q_EMIT failed(question);
+}
+
+void OutputPage::undoRepair() {
+  undoing_.reset();
+  if (!whyNoPhotograph().isEmpty()) return;
+  proof_.undoRepair();
+  if (playsEarlier() && session_.areDevicesFree() && !projectorWithoutScreen()) renew();
+}
+
 void OutputPage::perfect() {
   if (!mayProve()) return;
   whileClosed([this, picture = pictureToProve(), canvas = canvasOfPicture()] {

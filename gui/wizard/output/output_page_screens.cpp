@@ -46,6 +46,13 @@ void OutputPage::listScreens() {
   tellSettings();
 }
 
+QStringList OutputPage::connectors() const {
+  QStringList names;
+  for (const std::optional<std::size_t>& screen : chosen_)
+    if (screen && !screens_[*screen].isPageOnly) names << screens_[*screen].identity.connector;
+  return names;
+}
+
 QString OutputPage::missingScreen() const {
   return missingScreenOf(projector());
 }

@@ -69,8 +69,15 @@ OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent
 /// Somebody photographed it earlier.
 void OutputProof::recall() {
   proof_ = session_.isOpen() ? loadProof(proofFolder(session_.path())) : nullptr;
+  recallDrift();
+}
+
+/// Of the measurement that is used: what a check found of another one says nothing of it, and holds again
+/// when that one is used again.
+void OutputProof::recallDrift() {
+  driftOf_ = measurementOf(session_);
   drift_ = session_.isOpen() ? loadDrift(proofFolder(session_.path())) : std::nullopt;
-  if (drift_ && drift_->measurement != measurementOf(session_)) drift_.reset();
+  if (drift_ && drift_->measurement != driftOf_) drift_.reset();
 }
 
 QString OutputProof::whyNot() const {
@@ -98,8 +105,8 @@ bool OutputProof::holds(const Proof& proof) const {
 /// What was measured, chosen or decided has changed.
 void OutputProof::look() {
   if (!session_.isOpen()) return;
-  const bool isDriftOld = drift_ && drift_->measurement != measurementOf(session_);
-  if (isDriftOld) drift_.reset();
+  const bool isDriftOld = driftOf_ != measurementOf(session_);
+  if (isDriftOld) recallDrift();
   const bool isRepairOld = repair_ && repairOf_ != measurementOf(session_);
   if (isRepairOld) repair_.reset();
   const bool wasOutOfDate = std::exchange(wasOutOfDate_, isOutOfDate());
@@ -147,8 +154,10 @@ void OutputProof::cameraPushedBack() {
   const bool wasLeft = std::exchange(leftElsewhere_, std::nullopt).has_value();
   pushedBack_ = (current() != nullptr && !current()->isAsPredicted()) ||
                 (drift_ && drift_->verdict != acquisition::Verdict::stillGood);
+  const bool wasInVain = isBeyondRepair();
+  if (wasInVain) repair_.reset();  // of a view that is no more
   if (!pushedBack_) {
-    if (wasLeft) Q_EMIT changed();
+    if (wasLeft || wasInVain) Q_EMIT changed();
     return;
   }
   drift_.reset();
@@ -276,7 +285,10 @@ void OutputProof::finished() {
   bool done = job_.state() == Job::State::done && found;
   if (done) endedUnclear_ = false;  // it was ready by then
   if (done && found->proof) proof_ = found->proof;
-  if (done && found->drift) drift_ = std::move(found->drift);
+  if (done && found->drift) {
+    drift_ = std::move(found->drift);
+    if (isBeyondRepair()) repair_.reset();  // what was tried in vain was before that
+  }
   std::optional<Failure> unread;
   if (done && found->repair) {
     // What was found before of the former measurement goes with it.

@@ -70,6 +70,8 @@ class OutputProof : public QObject {
   const pipeline::DriftRecord* newestDrift() const;
   /// What the last repair here came to; none: there was none since the calibration was opened or changed.
   const std::optional<pipeline::RepairResult>& repair() const { return repair_; }
+  /// It was tried in vain, and nothing else was found since.
+  bool isBeyondRepair() const { return repair_ && repair_->end == pipeline::RepairEnd::notBetter; }
   /// What is used was repaired: of what, and what that gained. None: it was measured so.
   std::optional<calibration::RepairNote> repairNote() const;
   /// When that was, ISO 8601, UTC.
@@ -114,11 +116,10 @@ class OutputProof : public QObject {
   void start(Work work, Job::Work job);
   void finished();
   void recall();
+  void recallDrift();
   bool holds(const Proof& proof) const;
   const Proof* current() const { return proof_ && holds(*proof_) ? proof_.get() : nullptr; }
   void look();
-  /// It was tried in vain.
-  bool isBeyondRepair() const { return repair_ && repair_->end == pipeline::RepairEnd::notBetter; }
 
   Session& session_;
   StepName step_;
@@ -127,6 +128,7 @@ class OutputProof : public QObject {
   Work work_ = Work::none;
   std::shared_ptr<const Proof> proof_;
   std::optional<pipeline::DriftRecord> drift_;
+  std::string driftOf_;  // the measurement that it was looked for of
   std::optional<pipeline::RepairResult> repair_;
   std::string repairOf_;  // the measurement that `repair_` left
   bool wasOutOfDate_ = false;

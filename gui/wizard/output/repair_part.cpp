@@ -82,7 +82,7 @@ QWidget* repairPart(OutputPage& page) {
   undo->setToolTip(OutputPage::tr("Takes the repair back."));
   column->addWidget(undo);
   QObject::connect(repair, &QPushButton::clicked, &page, &OutputPage::repair);
-  QObject::connect(undo, &QPushButton::clicked, &page, &OutputPage::undoRepair);
+  QObject::connect(undo, &QPushButton::clicked, &page, &OutputPage::askToUndoRepair);
   const auto refresh = [=, &page] {
     const OutputProof& proof = page.proof();
     showState(*state, proof);

@@ -35,6 +35,11 @@ QString stateOf(const calibration::CalibrationFolder& folder) {
                    calibration::StageProgress::open
                ? Translated::tr("Nothing measured yet")
                : Translated::tr("Acquire is next");
+  const calibration::StageResults results = calibration::resultsIn(folder);
+  const auto& measured = std::get<static_cast<std::size_t>(calibration::Stage::acquisition)>(results);
+  if (measured && measured->changed) return Translated::tr("Ended by a change");
+  if (measured && measured->stoppedAt > 0)
+    return Translated::tr("Stopped at blocks of %1 px").arg(measured->stoppedAt);
   if (calibration::progressOf(folder, calibration::Stage::content) == calibration::StageProgress::done)
     return Translated::tr("Ready to play");
   if (calibration::progressOf(folder, calibration::Stage::content) == calibration::StageProgress::stale)

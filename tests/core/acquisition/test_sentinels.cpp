@@ -77,6 +77,29 @@ class TestSentinels : public QObject {
     QCOMPARE(a.patterns, venue_->sound().patterns);
   }
 
+  /// Law: what moved is told beside another light, and what was photographed since is not called safe by
+  /// putting only the light right.
+  void aBumpUnderAnotherLightIsTold() {
+    venue_->faults->faults = {fault(FaultKind::ambient, 60, 0.05), fault(FaultKind::shiftedCamera, 60, 2.0)};
+    std::vector<Alarm> alarms;
+    MemoryLog log;
+    const Acquisition a = venue_->run(
+        [&](const Alarm& alarm) {
+          alarms.push_back(alarm);
+          if (alarms.size() == 2) venue_->faults->faults.clear();
+          if (alarms.size() == 1) venue_->faults->faults.pop_back();  // the light is left on
+          return Answer::retry;
+        },
+        log);
+    QCOMPARE(alarms.size(), std::size_t{2});
+    QVERIFY2(alarms[0].kind == AlarmKind::moved, english(alarms[0].what).c_str());
+    QVERIFY2(english(alarms[0].what).find("room became brighter") != std::string::npos,
+             english(alarms[0].what).c_str());
+    QVERIFY(alarms[0].first <= 60 && alarms[0].first + alarms[0].patterns > 60);
+    QVERIFY2(alarms[1].kind == AlarmKind::ambientChanged, english(alarms[1].what).c_str());
+    QVERIFY(a.transport == venue_->sound().transport);
+  }
+
   void aBumpBetweenTwoExposures_data() {
     QTest::addColumn<int>("which");
     QTest::newRow("of a pattern") << 0;

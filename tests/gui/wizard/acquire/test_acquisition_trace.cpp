@@ -146,8 +146,10 @@ class TestAcquisitionTrace : public QObject {
         states[0].figure.contains(decimalText(0.65, 2)) && states[0].figure.contains(decimalText(0.35, 2)),
         qPrintable(states[0].figure));
     // Taken again, what was put right is no warning any more; whether it is good says the next check.
+    QVERIFY(!trace.isTakingAgain());
     trace.takenAgain({20, 21, RetakeReason::alarm, kind});
     QCoreApplication::processEvents();
+    QCOMPARE(trace.isTakingAgain(), kind);
     states = trace.states();
     for (int i = 0; i < 4; ++i) {
       QVERIFY(states[static_cast<std::size_t>(i)].isSteady);
@@ -157,6 +159,7 @@ class TestAcquisitionTrace : public QObject {
     trace.checked(readingAt(40));
     QCoreApplication::processEvents();
     for (const WatchState& watch : trace.states()) QVERIFY(watch.isSteady && watch.isKnown);
+    QVERIFY(!trace.isTakingAgain());
   }
 
   void flickerBeyondItsLimitIsAState() {
@@ -181,6 +184,19 @@ class TestAcquisitionTrace : public QObject {
       QCoreApplication::processEvents();
       QCOMPARE(trace.states()[0].isSteady, off < 1.0);
       QCOMPARE(trace.roomLight()->isSteady, off < 1.0);
+    }
+  }
+
+  void anotherViewIsNotStill() {
+    for (double off : {0.9, 1.1}) {
+      AcquisitionTrace trace;
+      trace.begin();
+      Reading reading = readingAt(40);
+      reading.alarm = AlarmKind::ambientChanged;
+      reading.view = off * reading_limit::view;
+      trace.checked(reading);
+      QCoreApplication::processEvents();
+      QCOMPARE(trace.states()[1].isSteady, off < 1.0);
     }
   }
 

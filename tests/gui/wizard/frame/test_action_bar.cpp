@@ -44,6 +44,7 @@ class ScriptedPage : public PageModel {
   QString subtitle() const override { return {}; }
   StepStatus status() const override { return {}; }
   QString hint() const override { return sentence; }
+  bool hasRemedy() const override { return isRemediable; }
   PageCommand* primary() const override { return primaries_[static_cast<std::size_t>(step)]; }
   std::vector<PageCommand*> secondary() const override {
     return isEnded ? std::vector<PageCommand*>() : std::vector{hold_, dark_, end_};
@@ -57,7 +58,7 @@ class ScriptedPage : public PageModel {
   QStringList done;
   QString sentence, whyNoEnd;
   int step = 0;
-  bool isHeld = false, isDark = false, isEnded = false;
+  bool isHeld = false, isDark = false, isEnded = false, isRemediable = false;
 
  private:
   std::vector<PageCommand*> primaries_;
@@ -226,6 +227,31 @@ class TestActionBar : public QObject {
     heightNow();
     QCOMPARE(hint->text(), page_->sentence);
     QVERIFY(button("secondary-2")->isEnabled() && button("secondary-2")->accessibleDescription().isEmpty());
+  }
+
+  /// Law: where what the hint asks for is on the page, one button leads there, by keys too; its words are not
+  /// cut for it.
+  void whatTheHintAsksForIsShown() {
+    auto* remedy = button("remedy");
+    QVERIFY(!remedy->isVisible());
+    page_->sentence =
+        "Confirm that the room is clear before any of the patterns is projected, which flash quickly.";
+    page_->isRemediable = true;
+    page_->refresh();
+    QVERIFY(remedy->isVisible());
+    QSignalSpy wanted(page_.get(), &PageModel::remedyWanted);
+    QTest::keyClick(remedy, Qt::Key_Space);
+    QCOMPARE(wanted.size(), 1);
+    const auto* hint = bar_->findChild<QLabel*>("hint");
+    for (int width = 700; width <= 1400; width += 20) {
+      bar_->resize(width, bar_->height());
+      bar_->layout()->activate();
+      QCoreApplication::sendPostedEvents();
+      QVERIFY2(hint->height() >= hint->heightForWidth(hint->width()), qPrintable(QString::number(width)));
+      QVERIFY2(bar_->rect().contains(
+                   remedy->geometry().translated(remedy->parentWidget()->mapTo(bar_.get(), QPoint()))),
+               qPrintable(QString::number(width)));
+    }
   }
 
   /// Law: once all was shown, nothing moves under the pointer.

@@ -335,6 +335,25 @@ class TestWhatPlays : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(plays(false) && page_->projection().statistics().frames > 1, patience);
   }
 
+  /// Law: what was tried in vain is of the view that it was tried of: put back, or looked at once more, it
+  /// may be tried again.
+  void aRepairInVainIsOfWhatItSaw() {
+    // Nothing is seen but a far too large bump.
+    becomes([](venue::Changes& changes) { changes.cameras.push_back({0, 9.0, 7.0, 0.0}); });
+    openOutput();
+    page_->checkDrift();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().drift() && isIdle(), patience);
+    page_->repair();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().repair() && isIdle(), patience);
+    if (page_->proof().repair()->end != pipeline::RepairEnd::notBetter)
+      QSKIP("this venue can be repaired even so");
+    QVERIFY(page_->proof().isBeyondRepair());
+    QVERIFY2(!page_->hint().contains("repair"), qPrintable(page_->hint()));
+    page_->checkDrift();
+    QTRY_VERIFY_WITH_TIMEOUT(isIdle(), patience);
+    QVERIFY(!page_->proof().isBeyondRepair() && !page_->proof().repair());
+  }
+
   /// Law: a check that finds a change leads to the repair, which is photographed, shown at once, and taken
   /// back by one button. What is measured again is not what was proved before.
   void aVenueThatChangedIsRepaired() {
@@ -358,9 +377,19 @@ class TestWhatPlays : public QObject {
     QVERIFY(!page_->proof().drift() && page_->proof().isOutOfDate());
     QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !page_->playsEarlier(), patience);
     QCOMPARE(page_->proof().next(), OutputProof::Next::photograph);
-    page_->undoRepair();
+    QSignalSpy asked(page_.get(), &PageModel::failed);
+    page_->askToUndoRepair();
+    QCOMPARE(asked.size(), 1);
+    const auto question = asked.front().front().value<FailureReport>();
+    QVERIFY(question.isQuestion && question.reason && page_->proof().repairNote());
+    question.goOn->trigger();
+    QVERIFY(!question.reason);
     QCOMPARE(session().correction(), before);
-    QVERIFY(!page_->proof().repairNote() && page_->playsEarlier() && !page_->proof().isOutOfDate());
+    QVERIFY(!page_->proof().repairNote() && !page_->proof().isOutOfDate());
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !page_->playsEarlier(), patience);
+    // What was found of it before holds of it again.
+    QVERIFY(page_->proof().drift().has_value());
+    QCOMPARE(page_->proof().next(), OutputProof::Next::repair);
   }
 
   /// Law: while another step has the devices, no part of the page says that nothing is projected.

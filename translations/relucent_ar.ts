@@ -4285,10 +4285,6 @@
         <translation>اختر الكاميرا الموجّهة إلى السطح.</translation>
     </message>
     <message>
-        <source>The camera is in use at %1.</source>
-        <translation>الكاميرا مستخدمة في خطوة «%1».</translation>
-    </message>
-    <message>
         <source>Opening the devices</source>
         <translation>فتح الأجهزة</translation>
     </message>
@@ -7542,10 +7538,6 @@ projector %2</source>
         <translation>شاشة جهاز العرض غير موجودة. صِلها ووسّع سطح المكتب إليها.</translation>
     </message>
     <message>
-        <source>The output is on that screen. Close it first.</source>
-        <translation>الخرج على تلك الشاشة. أغلقه أولًا.</translation>
-    </message>
-    <message>
         <source>The brightest light that can be reached; hatched where the content is out of reach</source>
         <translation>أسطع ضوء يمكن بلوغه؛ مخطّط حيث يتعذّر بلوغ المحتوى</translation>
     </message>
@@ -7908,6 +7900,10 @@ projector %2</source>
     <message>
         <source>The content was placed on another measurement or threshold</source>
         <translation>وُضع المحتوى وفق قياس آخر أو عتبة أخرى</translation>
+    </message>
+    <message>
+        <source>To shine on the surface, close the output first.</source>
+        <translation>للعرض على السطح، أغلق الخرج أولًا.</translation>
     </message>
 </context>
 <context>

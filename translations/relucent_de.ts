@@ -4197,10 +4197,6 @@
         <translation>Wählen Sie die Kamera, die auf die Oberfläche blickt.</translation>
     </message>
     <message>
-        <source>The camera is in use at %1.</source>
-        <translation>Die Seite „%1“ nutzt die Kamera.</translation>
-    </message>
-    <message>
         <source>Opening the devices</source>
         <translation>Öffnen der Geräte</translation>
     </message>
@@ -7390,10 +7386,6 @@ Projektor %2</translation>
         <translation>Der Bildschirm des Projektors fehlt. Stecken Sie ihn an und erweitern Sie den Desktop darauf.</translation>
     </message>
     <message>
-        <source>The output is on that screen. Close it first.</source>
-        <translation>Auf diesem Bildschirm läuft die Ausgabe. Schließen Sie sie zuerst.</translation>
-    </message>
-    <message>
         <source>The brightest light that can be reached; hatched where the content is out of reach</source>
         <translation>Das hellste erreichbare Licht; schraffiert, wo der Inhalt unerreichbar ist</translation>
     </message>
@@ -7756,6 +7748,10 @@ Projektor %2</translation>
     <message>
         <source>The content was placed on another measurement or threshold</source>
         <translation>Der Inhalt wurde auf einer anderen Messung oder Schwelle platziert</translation>
+    </message>
+    <message>
+        <source>To shine on the surface, close the output first.</source>
+        <translation>Um das Bild auf die Fläche zu werfen, schließen Sie zuerst die Ausgabe.</translation>
     </message>
 </context>
 <context>
@@ -9483,7 +9479,7 @@ Projektor %2</translation>
     </message>
     <message>
         <source>Setting up another</source>
-        <translation>Ein anderer wird eingerichtet</translation>
+        <translation>Ein anderer entsteht</translation>
     </message>
     <message>
         <source>Allow them</source>

@@ -4197,10 +4197,6 @@
         <translation>Elija la cámara que apunta a la superficie.</translation>
     </message>
     <message>
-        <source>The camera is in use at %1.</source>
-        <translation>La cámara está en uso en %1.</translation>
-    </message>
-    <message>
         <source>Opening the devices</source>
         <translation>Abriendo los dispositivos</translation>
     </message>
@@ -7390,10 +7386,6 @@ proyector %2</translation>
         <translation>No está la pantalla del proyector. Conéctela y extienda el escritorio a ella.</translation>
     </message>
     <message>
-        <source>The output is on that screen. Close it first.</source>
-        <translation>La salida está en esa pantalla. Ciérrela primero.</translation>
-    </message>
-    <message>
         <source>The brightest light that can be reached; hatched where the content is out of reach</source>
         <translation>La luz más intensa que se alcanza; rayado donde el contenido queda fuera de alcance</translation>
     </message>
@@ -7756,6 +7748,10 @@ proyector %2</translation>
     <message>
         <source>The content was placed on another measurement or threshold</source>
         <translation>El contenido se colocó sobre otra medición u otro umbral</translation>
+    </message>
+    <message>
+        <source>To shine on the surface, close the output first.</source>
+        <translation>Para proyectar sobre la superficie, cierre primero la salida.</translation>
     </message>
 </context>
 <context>

@@ -4197,10 +4197,6 @@
         <translation>Choisissez la caméra qui vise la surface.</translation>
     </message>
     <message>
-        <source>The camera is in use at %1.</source>
-        <translation>Caméra utilisée à l’étape «&#x202f;%1&#x202f;».</translation>
-    </message>
-    <message>
         <source>Opening the devices</source>
         <translation>Ouverture des appareils</translation>
     </message>
@@ -7390,10 +7386,6 @@ projecteur %2</translation>
         <translation>L’écran du projecteur est absent. Branchez-le et étendez-y le bureau.</translation>
     </message>
     <message>
-        <source>The output is on that screen. Close it first.</source>
-        <translation>La sortie occupe cet écran. Fermez-la d’abord.</translation>
-    </message>
-    <message>
         <source>The brightest light that can be reached; hatched where the content is out of reach</source>
         <translation>La lumière la plus forte possible ; hachuré là où le contenu est hors d’atteinte</translation>
     </message>
@@ -7756,6 +7748,10 @@ projecteur %2</translation>
     <message>
         <source>The content was placed on another measurement or threshold</source>
         <translation>Le contenu a été placé sur une autre mesure ou un autre seuil</translation>
+    </message>
+    <message>
+        <source>To shine on the surface, close the output first.</source>
+        <translation>Pour projeter sur la surface, fermez d’abord la sortie.</translation>
     </message>
 </context>
 <context>

@@ -4197,10 +4197,6 @@
         <translation>Scegliere la fotocamera rivolta alla superficie.</translation>
     </message>
     <message>
-        <source>The camera is in use at %1.</source>
-        <translation>La fotocamera è in uso nel passo %1.</translation>
-    </message>
-    <message>
         <source>Opening the devices</source>
         <translation>Apertura dei dispositivi</translation>
     </message>
@@ -7390,10 +7386,6 @@ proiettore %2</translation>
         <translation>Lo schermo del proiettore non c’è. Collegarlo ed estendervi il desktop.</translation>
     </message>
     <message>
-        <source>The output is on that screen. Close it first.</source>
-        <translation>L’uscita è su quello schermo. Chiuderla prima.</translation>
-    </message>
-    <message>
         <source>The brightest light that can be reached; hatched where the content is out of reach</source>
         <translation>La luce più intensa raggiungibile; tratteggiato dove il contenuto è irraggiungibile</translation>
     </message>
@@ -7756,6 +7748,10 @@ proiettore %2</translation>
     <message>
         <source>The content was placed on another measurement or threshold</source>
         <translation>Il contenuto è stato posizionato su un’altra misura o un’altra soglia</translation>
+    </message>
+    <message>
+        <source>To shine on the surface, close the output first.</source>
+        <translation>Per proiettare sulla superficie, chiudere prima l’uscita.</translation>
     </message>
 </context>
 <context>

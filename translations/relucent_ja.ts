@@ -4175,10 +4175,6 @@
         <translation>投影面に向いているカメラを選んでください。</translation>
     </message>
     <message>
-        <source>The camera is in use at %1.</source>
-        <translation>カメラは「%1」で使用中です。</translation>
-    </message>
-    <message>
         <source>Opening the devices</source>
         <translation>機器への接続</translation>
     </message>
@@ -7352,10 +7348,6 @@ projector %2</source>
         <translation>プロジェクターの画面がありません。接続して、デスクトップを拡張してください。</translation>
     </message>
     <message>
-        <source>The output is on that screen. Close it first.</source>
-        <translation>その画面は出力が使っています。先に閉じてください。</translation>
-    </message>
-    <message>
         <source>The brightest light that can be reached; hatched where the content is out of reach</source>
         <translation>出せる最も明るい光。内容に届かない部分は斜線</translation>
     </message>
@@ -7718,6 +7710,10 @@ projector %2</source>
     <message>
         <source>The content was placed on another measurement or threshold</source>
         <translation>コンテンツは別の測定またはしきい値の上に配置されたものです</translation>
+    </message>
+    <message>
+        <source>To shine on the surface, close the output first.</source>
+        <translation>面に投影するには、先に出力を閉じてください。</translation>
     </message>
 </context>
 <context>

@@ -4175,10 +4175,6 @@
         <translation>请选择对准表面的相机。</translation>
     </message>
     <message>
-        <source>The camera is in use at %1.</source>
-        <translation>相机正由“%1”使用。</translation>
-    </message>
-    <message>
         <source>Opening the devices</source>
         <translation>正在打开设备</translation>
     </message>
@@ -7352,10 +7348,6 @@ projector %2</source>
         <translation>找不到投影机的屏幕。请接上并将桌面扩展到它。</translation>
     </message>
     <message>
-        <source>The output is on that screen. Close it first.</source>
-        <translation>输出正在该屏幕上。请先关闭。</translation>
-    </message>
-    <message>
         <source>The brightest light that can be reached; hatched where the content is out of reach</source>
         <translation>可达到的最亮光；内容无法达到之处为斜线</translation>
     </message>
@@ -7718,6 +7710,10 @@ projector %2</source>
     <message>
         <source>The content was placed on another measurement or threshold</source>
         <translation>内容是在另一次测量或另一个阈值上放置的</translation>
+    </message>
+    <message>
+        <source>To shine on the surface, close the output first.</source>
+        <translation>要投到表面上，请先关闭输出。</translation>
     </message>
 </context>
 <context>

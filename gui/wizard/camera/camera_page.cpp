@@ -179,8 +179,7 @@ void CameraPage::exchangeCamera(const std::string& address, std::optional<Size> 
 QString CameraPage::hint() const {
   if (needsCamera())
     return isListing() ? tr("Looking for cameras") : tr("Choose the camera that looks at the surface.");
-  if (!session_.areDevicesFree() && !isLooking())
-    return tr("The camera is in use at %1.").arg(session_.devicesUserName());
+  if (!session_.areDevicesFree() && !isLooking()) return session_.whyInUse();
   if (isChecking()) return job_.stage().isEmpty() ? tr("Opening the devices") : job_.stage();
   for (std::size_t camera = 0; camera < cameras(); ++camera)
     if (const std::optional<double> bright = tooBrightEverywhere(camera); bright && *bright > mostTooBright)

@@ -409,7 +409,7 @@ QString PreviewPage::whyNotShining() const {
   if (screens.size() < preview_->sentWith.size())
     return tr("The projector's screen is not there. Plug it in and extend the desktop to it.");
   if (std::ranges::any_of(screens, &ProjectorWindow::isTaken))
-    return tr("The output is on that screen. Close it first.");
+    return tr("To shine on the surface, close the output first.");
   return {};
 }
 

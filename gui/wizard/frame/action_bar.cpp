@@ -148,8 +148,7 @@ void ActionBar::refresh() {
   arrange();
   // A command that goes once it is given leaves who gave it by keys where they were.
   focused = window()->focusWidget();
-  if (hadFocus && (focused == nullptr || !isAncestorOf(focused)) && !focusPrimary() && back_->isVisible())
-    back_->setFocus(Qt::OtherFocusReason);
+  if (hadFocus && (focused == nullptr || !isAncestorOf(focused) || !focused->isVisible())) focusPrimary();
 }
 
 /// What the page says, and why secondary actions are not possible where that is something else.

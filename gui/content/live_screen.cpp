@@ -43,12 +43,12 @@ class LiveScreen::Grabber {
     bool isNumber = false;
     const quint32 number = which_.toUInt(&isNumber, 0);
     QStringList titles;
-    for (const auto& [window, title] : desktop_.windows()) {
-      if (isNumber ? window == number : title.contains(which_, Qt::CaseInsensitive)) {
-        window_ = window;
+    for (const ScreenCapture::Window& window : desktop_.windows()) {
+      if (isNumber ? window.number == number : window.title.contains(which_, Qt::CaseInsensitive)) {
+        window_ = window.number;
         return;
       }
-      titles.append(title);
+      titles.append(window.title);
     }
     throw Error(
         ErrorKind::input,

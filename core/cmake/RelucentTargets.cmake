@@ -118,11 +118,12 @@ endfunction()
 # relucent_test(core/image/test_colour.cpp USES image ...): one Qt Test program, one ctest entry.
 #   WITHIN two-screens  what tests/support/with-two-screens sets up around it, which says why it skips where it cannot:
 #                       two-screens of X, two-outputs of sway, two-monitors of GNOME, desktop-portal
-#   SANITIZED_ROWS 3    so many rows of each of its tables under sanitizers, see tests/support/some-rows: where all take
-#                       more than half a minute, on one path
+#   ROWS 6              so many rows of each of its tables, see tests/support/some-rows: where all take more than half a
+#                       minute, on one path; tests/long has all
+#   SANITIZED_ROWS 3    the same under sanitizers
 # RELUCENT_TEST_PRELUDE, if set, names the prelude of a folder's tests.
 function(relucent_test source)
-  cmake_parse_arguments(ARG "" "TIMEOUT;WITHIN;SANITIZED_ROWS" "USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT;WITHIN;ROWS;SANITIZED_ROWS" "USES;LIBRARIES" ${ARGN})
   get_filename_component(name ${source} NAME_WE)
   # Not AUTOMOC, which takes longer over each of many small targets than their moc.
   set(moc ${CMAKE_CURRENT_BINARY_DIR}/${name}.moc)
@@ -142,14 +143,18 @@ function(relucent_test source)
   if(RELUCENT_TEST_PRELUDE)
     relucent_reads_prelude(${name} ${RELUCENT_TEST_PRELUDE})
   endif()
+  set(rows ${ARG_ROWS})
+  if(ARG_SANITIZED_ROWS AND RELUCENT_SANITIZERS)
+    set(rows ${ARG_SANITIZED_ROWS})
+  endif()
   set(command ${name})
   if(ARG_WITHIN)
     set(command ${PROJECT_SOURCE_DIR}/tests/support/with-${ARG_WITHIN} $<TARGET_FILE:${name}>)
-  elseif(ARG_SANITIZED_ROWS AND RELUCENT_SANITIZERS)
-    set(command ${PROJECT_SOURCE_DIR}/tests/support/some-rows ${ARG_SANITIZED_ROWS} $<TARGET_FILE:${name}>)
+  elseif(rows)
+    set(command ${PROJECT_SOURCE_DIR}/tests/support/some-rows ${rows} $<TARGET_FILE:${name}>)
   endif()
   add_test(NAME ${name} COMMAND ${command})
-  if(ARG_SANITIZED_ROWS)
+  if(rows)
     set_tests_properties(${name} PROPERTIES LABELS some-rows)  # by which tests/long finds them
   endif()
   if(ARG_TIMEOUT)

@@ -338,19 +338,15 @@ class TestWhatPlays : public QObject {
   /// Law: what was tried in vain is of the view that it was tried of: put back, or looked at once more, it
   /// may be tried again.
   void aRepairInVainIsOfWhatItSaw() {
-    // Nothing is seen but a far too large bump.
-    becomes([](venue::Changes& changes) { changes.cameras.push_back({0, 9.0, 7.0, 0.0}); });
+    // What photographs of a picture do not tell apart.
+    becomes([](venue::Changes& changes) { changes.lamps = {0.98, 0.98, 0.975}; });
     openOutput();
-    page_->checkDrift();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().drift() && isIdle(), patience);
     page_->repair();
     QTRY_VERIFY_WITH_TIMEOUT(page_->proof().repair() && isIdle(), patience);
-    if (page_->proof().repair()->end != pipeline::RepairEnd::notBetter)
-      QSKIP("this venue can be repaired even so");
+    QCOMPARE(page_->proof().repair()->end, pipeline::RepairEnd::notBetter);
     QVERIFY(page_->proof().isBeyondRepair());
-    QVERIFY2(!page_->hint().contains("repair"), qPrintable(page_->hint()));
     page_->checkDrift();
-    QTRY_VERIFY_WITH_TIMEOUT(isIdle(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().drift() && isIdle(), patience);
     QVERIFY(!page_->proof().isBeyondRepair() && !page_->proof().repair());
   }
 

@@ -35,9 +35,8 @@ std::vector<compensation::Position> PreviewPage::cameraPositions() const {
   for (std::size_t camera = 0; camera < cameras(); ++camera) {
     const double angle =
         cameras() == 1 ? 0.0 : widest * (2.0 * static_cast<double>(camera) / (count - 1.0) - 1.0);
-    positions.push_back(arePlaced
-                            ? *view(camera).position
-                            : compensation::Position{away * std::sin(angle), away * std::cos(angle), 0.0});
+    const compensation::Position around{away * std::sin(angle), away * std::cos(angle), 0.0};
+    positions.push_back(arePlaced ? view(camera).position.value_or(around) : around);
   }
   return positions;
 }
@@ -83,20 +82,21 @@ void PreviewPage::setViewerOnPath(double place) {
 }
 
 double PreviewPage::viewerOnPath() const {
-  if (!viewer()) return 0.0;
+  const std::optional<compensation::Position> viewer = this->viewer();
+  if (!viewer) return 0.0;
   const std::vector<compensation::Position> stops = cameraPositions();
   double best = 0.0, nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     double along = 0.0, length = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double step = stops[i + 1][axis] - stops[i][axis];
-      along += step * ((*viewer())[axis] - stops[i][axis]);
+      along += step * ((*viewer)[axis] - stops[i][axis]);
       length += step * step;
     }
     const double share = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
     double apart = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      apart += std::pow((1.0 - share) * stops[i][axis] + share * stops[i + 1][axis] - (*viewer())[axis], 2.0);
+      apart += std::pow((1.0 - share) * stops[i][axis] + share * stops[i + 1][axis] - (*viewer)[axis], 2.0);
     if (apart >= nearest) continue;
     nearest = apart;
     best = static_cast<double>(i) + share;
@@ -105,8 +105,9 @@ double PreviewPage::viewerOnPath() const {
 }
 
 std::vector<double> PreviewPage::viewerShares() const {
-  if (!viewer()) return {};
-  return compensation::viewerWeights(cameraPositions(), *viewer());
+  const std::optional<compensation::Position> viewer = this->viewer();
+  if (!viewer) return {};
+  return compensation::viewerWeights(cameraPositions(), *viewer);
 }
 
 }  // namespace relucent::gui

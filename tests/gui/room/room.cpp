@@ -111,7 +111,11 @@ int main(int argc, char** argv) {
   options.add_option("--cache", cache, "folder for what is traced");
   CLI11_PARSE(options, argc, argv);
   try {
-    Room room(venue, cache);
+    bool isGiven = false;
+    RoomDevices devices;
+    devices.framesPerSecond = qEnvironmentVariableIntValue("PROJECTOR_RATE", &isGiven);
+    if (!isGiven) devices.framesPerSecond = 60.0;  // as tests/support/with-two-screens has it
+    Room room(venue, cache, devices);
     if (!room.isRunning()) {
       fmt::print(stderr, "room: the port of GigE Vision is taken, or there is no loopback network\n");
       return 1;

@@ -73,6 +73,7 @@ struct RoomCamera {
 struct RoomDevices {
   std::vector<std::string> screens{"DUMMY1"};
   std::vector<RoomCamera> cameras{RoomCamera{}};
+  double framesPerSecond = frameRate;  // of the screens: eight of them expose full light well
 };
 
 /// A venue's light where the screens shine, photographed by cameras on the network. A projector or camera of
@@ -87,7 +88,7 @@ class Room {
     for (const std::string& screen : devices_.screens)
       screens_.push_back(std::make_unique<test::ScreenLight>(screen));
     requests_.resize(rig_.cameras.size(), {{"none", 0}, 0, 1.0});
-    brightness_ = 8.0 / frameRate / wellExposed();
+    brightness_ = 8.0 / devices_.framesPerSecond / wellExposed();
     for (std::size_t i = 0; i < devices_.cameras.size(); ++i) {
       test::FakeGigeSettings camera;
       camera.serial = devices_.cameras[i].serial;

@@ -7053,6 +7053,10 @@ projector %2</source>
         <source>Screen %1, which this plays on</source>
         <translation>الشاشة %1، وهي التي يُعرض عليها</translation>
     </message>
+    <message>
+        <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
+        <translation>هي أكبر من المتوقع. يبيّن فحص الانحراف ما إذا كان شيء قد تحرك.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6909,6 +6909,10 @@ Projektor %2</translation>
         <source>Screen %1, which this plays on</source>
         <translation>Bildschirm %1, auf dem dies spielt</translation>
     </message>
+    <message>
+        <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
+        <translation>Sie sind größer als vorhergesagt. Eine Prüfung auf Drift zeigt, ob sich etwas bewegt hat.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

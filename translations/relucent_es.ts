@@ -6909,6 +6909,10 @@ proyector %2</translation>
         <source>Screen %1, which this plays on</source>
         <translation>Pantalla %1, en la que se reproduce</translation>
     </message>
+    <message>
+        <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
+        <translation>Son mayores de lo previsto. Una comprobación de deriva muestra si algo se ha movido.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

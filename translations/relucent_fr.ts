@@ -6909,6 +6909,10 @@ projecteur %2</translation>
         <source>Screen %1, which this plays on</source>
         <translation>Écran %1, sur lequel ceci est diffusé</translation>
     </message>
+    <message>
+        <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
+        <translation>Elles sont plus grandes que prévu. Chercher une dérive montre si quelque chose a bougé.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6909,6 +6909,10 @@ proiettore %2</translation>
         <source>Screen %1, which this plays on</source>
         <translation>Schermo %1, su cui si riproduce</translation>
     </message>
+    <message>
+        <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
+        <translation>Sono maggiori del previsto. Un controllo della deriva mostra se qualcosa si è mosso.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6873,6 +6873,10 @@ projector %2</source>
         <source>Screen %1, which this plays on</source>
         <translation>画面 %1（再生先）</translation>
     </message>
+    <message>
+        <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
+        <translation>予測より大きくなっています。ドリフトを確認すると、何かが動いたかどうかが分かります。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6873,6 +6873,10 @@ projector %2</source>
         <source>Screen %1, which this plays on</source>
         <translation>屏幕 %1（正在其上播放）</translation>
     </message>
+    <message>
+        <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
+        <translation>误差大于预测。检查漂移可知是否有东西移动了。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

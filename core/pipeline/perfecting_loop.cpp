@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "relucent/compensation/prediction.h"
@@ -129,7 +130,9 @@ class Loop {
     const Rasters& cameras = venue_.transport.cameras();
     for (std::size_t view = 0; view < cameras.devices(); ++view) {
       const sentinels::Movement moved = aimOffset(image::imageFromStack(seen.expected, cameras, view),
-                                                  image::imageFromStack(seen.light.radiance, cameras, view))
+                                                  image::imageFromStack(seen.light.radiance, cameras, view),
+                                                  std::numeric_limits<float>::infinity(),
+                                                  comparedPixels(venue_.usable, seen.light, cameras, view))
                                             .movement;
       if (!moved.explains || std::hypot(moved.x, moved.y) <= mostShift) continue;
       return RELUCENT_MESSAGE("perfect.camera-moved",

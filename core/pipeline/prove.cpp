@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
@@ -141,7 +142,9 @@ Photographed photograph(photography::Photographer& photographer, const MeasuredC
     view.error.surprise = surpriseOf(frame.radiance, predicted.camera, target, cameras, camera);
     view.error.predicted = errorOf(compensation::errorIn(camera, predicted.camera, target, cameras));
     view.moved = aimOffset(image::imageFromStack(predicted.camera, cameras, camera),
-                           image::imageFromStack(frame.radiance, cameras, camera))
+                           image::imageFromStack(frame.radiance, cameras, camera),
+                           std::numeric_limits<float>::infinity(),
+                           comparedPixels(measured.venue.usable, frame, cameras, camera))
                      .movement;
     compensation::ViewError seen = compensation::errorIn(camera, frame.radiance, target, cameras);
     view.error.measured = errorOf(seen);

@@ -85,14 +85,19 @@ QString viewsLine(const Proof& proof) {
 }
 
 /// Why errors are plain to see though all is as predicted, and what helps.
-QString reasonOf(const OutputPage& page, double reachable) {
+QString reasonOf(const OutputPage& page, const pipeline::ProvedView& figures) {
   constexpr double enoughLight = 0.95, enoughReach = 0.9;
+  // Of a venue that stands still a prediction of so large errors is not off by more.
+  constexpr double mostOff = 1.2;
+  if (figures.after.measured.deltaE > mostOff * figures.after.predicted.deltaE)
+    return OutputPage::tr(
+        "They are larger than predicted. A check for drift tells whether something has moved.");
   if (const double kept = page.lightKept(); kept < enoughLight)
     return OutputPage::tr(
                "Nothing has moved: of the light only %1 is kept at Threshold, so that bounces are "
                "missing, in the prediction too. Keep more of it.")
         .arg(percentText(kept));
-  if (reachable < enoughReach)
+  if (figures.reachable < enoughReach)
     return OutputPage::tr(
         "Nothing has moved: part of the picture is out of the projector's reach, darker than its black or "
         "brighter than its white there. Another picture, or another place for it, helps.");
@@ -147,7 +152,7 @@ void showProof(Remark& remark, const OutputPage& page) {
     remark.show(Remark::Kind::watch, OutputPage::tr("The surface looked as predicted then"), meaning);
   else if (proof->isAsPredicted() && pipeline::isPlainToSee(proof->figures))
     remark.show(Remark::Kind::watch, OutputPage::tr("As predicted, but errors are plain to see"),
-                meaning + '\n' + reasonOf(page, figures.reachable));
+                meaning + '\n' + reasonOf(page, figures));
   else if (proof->isAsPredicted())
     remark.show(Remark::Kind::good, OutputPage::tr("The surface looks as predicted"), meaning);
   else if (const sentinels::Movement moved = proof->figuresOf(*differs).moved; moved.explains)

@@ -120,6 +120,26 @@ class TestAim : public QObject {
   }
 
   /// Law: no direction is told where no movement explains what is seen.
+  /// Law: pixels of which nothing is known mislead nobody, though they be bright in one picture and dark in
+  /// the other.
+  void whatIsNotComparedMisleadsNobody() {
+    Image expected = view(0, 0, 1.0), seen = view(1.0, 1.0, 1.5);
+    std::vector<std::uint8_t> compared(size.count(), 1);
+    for (int y = 20; y < 50; ++y)
+      for (int x = 30; x < 60; ++x)
+        for (int c = 0; c < 3; ++c) {
+          expected.at(x, y, c) = 0.0f;
+          seen.at(x, y, c) = 5.0f;
+          compared[indexOf(size, {x, y})] = 0;
+        }
+    const auto movement =
+        aimOffset(expected, seen, std::numeric_limits<float>::infinity(), compared).movement;
+    QVERIFY(!aimOffset(expected, seen).movement.explains);
+    QVERIFY(movement.explains);
+    QVERIFY2(std::hypot(movement.x - 1.0, movement.y - 1.0) < 0.1,
+             qPrintable(QString("%1, %2").arg(movement.x).arg(movement.y)));
+  }
+
   void anotherViewIsNotRecognised() {
     QVERIFY(!aimOffset(view(0, 0, 1.0), view(0, 0, 1.0, 5)).isRecognised);
     QVERIFY(!aimOffset(view(0, 0, 1.0), Image(size, 3)).isRecognised);

@@ -4071,6 +4071,10 @@
         <source>%1: what was photographed since the check before is taken again.</source>
         <translation>%1: ما صُوّر منذ الفحص السابق يُعاد تصويره.</translation>
     </message>
+    <message>
+        <source>The light of the room was another one, too: see that it is as it was.</source>
+        <translation>وكانت إضاءة الغرفة مختلفة أيضًا: تأكد من أنها كما كانت.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

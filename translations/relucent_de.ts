@@ -3983,6 +3983,10 @@
         <source>%1: what was photographed since the check before is taken again.</source>
         <translation>%1: Was seit der vorigen Kontrolle fotografiert wurde, wird wiederholt.</translation>
     </message>
+    <message>
+        <source>The light of the room was another one, too: see that it is as it was.</source>
+        <translation>Auch das Raumlicht war ein anderes: Sorgen Sie dafür, dass es ist wie zuvor.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

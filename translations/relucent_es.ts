@@ -3983,6 +3983,10 @@
         <source>%1: what was photographed since the check before is taken again.</source>
         <translation>%1: lo fotografiado desde el control anterior se repite.</translation>
     </message>
+    <message>
+        <source>The light of the room was another one, too: see that it is as it was.</source>
+        <translation>También la luz de la sala era otra: asegúrese de que esté como estaba.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -3983,6 +3983,10 @@
         <source>%1: what was photographed since the check before is taken again.</source>
         <translation>%1 : ce qui a été photographié depuis le contrôle précédent est repris.</translation>
     </message>
+    <message>
+        <source>The light of the room was another one, too: see that it is as it was.</source>
+        <translation>La lumière de la salle était différente aussi : veillez à ce qu’elle soit comme avant.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -3983,6 +3983,10 @@
         <source>%1: what was photographed since the check before is taken again.</source>
         <translation>%1: ciò che è stato fotografato dal controllo precedente viene ripetuto.</translation>
     </message>
+    <message>
+        <source>The light of the room was another one, too: see that it is as it was.</source>
+        <translation>Anche la luce della sala era diversa: assicurarsi che sia com’era.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -3961,6 +3961,10 @@
         <source>%1: what was photographed since the check before is taken again.</source>
         <translation>%1：前回の確認以降に撮影したものを撮り直しています。</translation>
     </message>
+    <message>
+        <source>The light of the room was another one, too: see that it is as it was.</source>
+        <translation>部屋の照明も変わっていました。元に戻っていることを確認してください。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

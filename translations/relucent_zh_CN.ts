@@ -3961,6 +3961,10 @@
         <source>%1: what was photographed since the check before is taken again.</source>
         <translation>%1：上次检查以来拍摄的内容正在重新拍摄。</translation>
     </message>
+    <message>
+        <source>The light of the room was another one, too: see that it is as it was.</source>
+        <translation>房间的灯光也不同了：请确认已恢复原状。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -30,6 +30,8 @@ void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm, bool isPutRight) 
     failure.what = alarm.kind == sentinels::AlarmKind::moved
                        ? tr("It had moved while it measured, and looks again where it looked.")
                        : tr("It looks where it looked. Perhaps the light flickered.");
+    if (const auto light = trace_.roomLight(); light && !light->isSteady)
+      failure.what += '\n' + tr("The light of the room was another one, too: see that it is as it was.");
   }
   FailureReport report{failure, fullSentence(alarm.safe), retryAlarm_, keepAtAlarm_, goOn};
   if (viewBefore_.empty()) viewBefore_ = session_.live().floodlight().signal;

@@ -206,8 +206,9 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
              {false, true, tr("Projector"), {}},
              {false, true, tr("Flicker"), {}}}};
   const sentinels::Reading& now = points_.back().reading;
-  // What was put right is no longer so, and not looked at again before the next check.
-  const bool isOver = now.alarm && (isPutRight_ || isAnswered());
+  // What was put right is no longer so, and not looked at again before the next check. Put right by hand is a
+  // camera: the room's light is as it was seen last.
+  const bool isOver = now.alarm && isAnswered();
   bool room = isRoomSteady(now);
   bool view = !isOf(now, {sentinels::AlarmKind::moved, sentinels::AlarmKind::localChange,
                           sentinels::AlarmKind::mirroredScreen, sentinels::AlarmKind::wrongScreen,
@@ -230,10 +231,13 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
         // One exposure alone has nothing to differ from.
         now.flicker > 0.0 ? tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))
                           : tr("No difference between photographs of one pattern was found.")}}};
-  for (WatchState& state : states)
-    if (isOver && !state.isSteady)
-      state = {false, true, isPutRight_ ? tr("Put right") : tr("Photographed again"),
-               tr("Looked at again at the next check.")};
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    constexpr std::size_t roomLight = 0;
+    const bool isPutRight = isPutRight_ && i != roomLight;
+    if (!states[i].isSteady && (isOver || (now.alarm && isPutRight)))
+      states[i] = {false, true, isPutRight ? tr("Put right") : tr("Photographed again"),
+                   tr("Looked at again at the next check.")};
+  }
   return states;
 }
 

@@ -187,6 +187,24 @@ class TestAcquisitionTrace : public QObject {
     }
   }
 
+  /// Law: a camera that is put right makes no light right.
+  void whatWasPutRightIsTheView() {
+    AcquisitionTrace trace;
+    trace.begin();
+    Reading reading = readingAt(40);
+    reading.alarm = AlarmKind::moved;
+    reading.view = 2.0 * reading_limit::view;
+    reading.roomLight = reading.roomLightExpected + 2.0 * reading_limit::roomLight;
+    trace.checked(reading);
+    QCoreApplication::processEvents();
+    QVERIFY(!trace.states()[0].isSteady && !trace.states()[1].isSteady);
+    trace.setPutRight(true);
+    QVERIFY(!trace.states()[0].isSteady && trace.states()[1].isSteady);
+    trace.takenAgain({20, 21, RetakeReason::alarm, AlarmKind::moved});
+    QCoreApplication::processEvents();
+    QVERIFY(trace.states()[0].isSteady && !trace.states()[0].isKnown);
+  }
+
   void anotherViewIsNotStill() {
     for (double off : {0.9, 1.1}) {
       AcquisitionTrace trace;

@@ -47,8 +47,9 @@ Mask resized(const Mask& mask, const Size& from, const Size& to) {
   image::Image picture(from, 1);
   for (std::size_t i = 0; i < mask.size(); ++i) picture.data()[i] = mask[i] != 0 ? 1.0f : 0.0f;
   constexpr float all = 0.999f;
+  const image::Image shares = image::resized(picture, to);
   Mask smaller;
-  for (float share : image::resized(picture, to).data()) smaller.push_back(share > all ? 1 : 0);
+  for (float share : shares.data()) smaller.push_back(share > all ? 1 : 0);
   return smaller;
 }
 

@@ -4659,6 +4659,10 @@
         <source>as it was seen last, exposure %1</source>
         <translation>كما شوهد آخر مرة، التعريض %1</translation>
     </message>
+    <message>
+        <source>%1 of full light was too bright in every exposure. “Check again” looks through the camera.</source>
+        <translation>كان ⁨%1⁩ من الإضاءة الكاملة ساطعًا أكثر من اللازم في كل تعريض. «إعادة الفحص» ينظر عبر الكاميرا.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -7060,6 +7064,22 @@ projector %2</source>
     <message>
         <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
         <translation>هي أكبر من المتوقع. يبيّن فحص الانحراف ما إذا كان شيء قد تحرك.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>بعد التثبيت يبدأ العرض عند كل تسجيل دخول، دون المعالج. وتبقى الكاميرا: فهي تعتني بالصورة ليلًا.</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph. What was found before is not settled.</source>
+        <translation>التقط لقطة التحقق. ما وُجد من قبل لم يُحسم بعد.</translation>
+    </message>
+    <message>
+        <source>The surface did not look as predicted. Open the output: it leads to what helps.</source>
+        <translation>لم يبدُ السطح كما هو متوقع. افتح الخرج: فهو يقود إلى ما يساعد.</translation>
+    </message>
+    <message>
+        <source>Black: the frozen picture stands unseen until you show it again.</source>
+        <translation>أسود: تبقى الصورة المجمّدة غير مرئية حتى تُظهرها من جديد.</translation>
     </message>
 </context>
 <context>

@@ -4567,6 +4567,10 @@
         <source>as it was seen last, exposure %1</source>
         <translation>wie zuletzt gesehen, Belichtung %1</translation>
     </message>
+    <message>
+        <source>%1 of full light was too bright in every exposure. “Check again” looks through the camera.</source>
+        <translation>%1 des vollen Lichts waren in jeder Belichtung zu hell. „Erneut prüfen“ blickt durch die Kamera.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -6916,6 +6920,22 @@ Projektor %2</translation>
     <message>
         <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
         <translation>Sie sind größer als vorhergesagt. Eine Prüfung auf Drift zeigt, ob sich etwas bewegt hat.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>Einmal installiert, startet die Show bei jeder Anmeldung, ohne Assistent. Die Kamera bleibt: Nachts kümmert sie sich um das Bild.</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph. What was found before is not settled.</source>
+        <translation>Nehmen Sie ein Prüffoto auf. Was vorher gefunden wurde, ist nicht geklärt.</translation>
+    </message>
+    <message>
+        <source>The surface did not look as predicted. Open the output: it leads to what helps.</source>
+        <translation>Die Fläche sah nicht aus wie vorhergesagt. Öffnen Sie die Ausgabe: Sie führt zu dem, was hilft.</translation>
+    </message>
+    <message>
+        <source>Black: the frozen picture stands unseen until you show it again.</source>
+        <translation>Schwarz: Das eingefrorene Bild steht ungesehen, bis Sie es wieder zeigen.</translation>
     </message>
 </context>
 <context>

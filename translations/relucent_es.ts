@@ -4567,6 +4567,10 @@
         <source>as it was seen last, exposure %1</source>
         <translation>como se vio por última vez, exposición %1</translation>
     </message>
+    <message>
+        <source>%1 of full light was too bright in every exposure. “Check again” looks through the camera.</source>
+        <translation>%1 de la luz plena era demasiado brillante en cada exposición. «Comprobar de nuevo» mira por la cámara.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -6916,6 +6920,22 @@ proyector %2</translation>
     <message>
         <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
         <translation>Son mayores de lo previsto. Una comprobación de deriva muestra si algo se ha movido.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>Una vez instalado, el show empieza en cada inicio de sesión, sin asistente. La cámara se queda: de noche cuida de la imagen.</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph. What was found before is not settled.</source>
+        <translation>Tome una fotografía de verificación. Lo hallado antes no está resuelto.</translation>
+    </message>
+    <message>
+        <source>The surface did not look as predicted. Open the output: it leads to what helps.</source>
+        <translation>La superficie no se veía como se predijo. Abra la salida: lleva a lo que ayuda.</translation>
+    </message>
+    <message>
+        <source>Black: the frozen picture stands unseen until you show it again.</source>
+        <translation>Negro: la imagen congelada queda oculta hasta que vuelva a mostrarla.</translation>
     </message>
 </context>
 <context>

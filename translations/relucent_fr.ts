@@ -4567,6 +4567,10 @@
         <source>as it was seen last, exposure %1</source>
         <translation>vu en dernier lieu, pose %1</translation>
     </message>
+    <message>
+        <source>%1 of full light was too bright in every exposure. “Check again” looks through the camera.</source>
+        <translation>%1 de la pleine lumière était trop clair à chaque temps de pose. « Revérifier » regarde par la caméra.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -6916,6 +6920,22 @@ projecteur %2</translation>
     <message>
         <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
         <translation>Elles sont plus grandes que prévu. Chercher une dérive montre si quelque chose a bougé.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>Une fois installée, la diffusion démarre à chaque ouverture de session, sans assistant. La caméra reste : la nuit, elle s’occupe de l’image.</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph. What was found before is not settled.</source>
+        <translation>Prenez une photo de contrôle. Ce qui a été constaté avant n’est pas réglé.</translation>
+    </message>
+    <message>
+        <source>The surface did not look as predicted. Open the output: it leads to what helps.</source>
+        <translation>La surface n’avait pas l’aspect prévu. Ouvrez la sortie : elle mène à ce qui aide.</translation>
+    </message>
+    <message>
+        <source>Black: the frozen picture stands unseen until you show it again.</source>
+        <translation>Noir : l’image figée reste invisible jusqu’à ce que vous la montriez de nouveau.</translation>
     </message>
 </context>
 <context>

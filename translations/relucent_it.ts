@@ -4567,6 +4567,10 @@
         <source>as it was seen last, exposure %1</source>
         <translation>come visto l’ultima volta, esposizione %1</translation>
     </message>
+    <message>
+        <source>%1 of full light was too bright in every exposure. “Check again” looks through the camera.</source>
+        <translation>%1 della luce piena era troppo chiaro in ogni esposizione. “Controlla di nuovo” guarda attraverso la fotocamera.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -6916,6 +6920,22 @@ proiettore %2</translation>
     <message>
         <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
         <translation>Sono maggiori del previsto. Un controllo della deriva mostra se qualcosa si è mosso.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>Una volta installato, lo show parte a ogni accesso, senza procedura guidata. La fotocamera resta: di notte si prende cura dell’immagine.</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph. What was found before is not settled.</source>
+        <translation>Scattare una foto di verifica. Ciò che è stato trovato prima non è risolto.</translation>
+    </message>
+    <message>
+        <source>The surface did not look as predicted. Open the output: it leads to what helps.</source>
+        <translation>La superficie non appariva come previsto. Aprire l’uscita: porta a ciò che aiuta.</translation>
+    </message>
+    <message>
+        <source>Black: the frozen picture stands unseen until you show it again.</source>
+        <translation>Nero: l’immagine ferma resta nascosta finché non la si mostra di nuovo.</translation>
     </message>
 </context>
 <context>

@@ -4544,6 +4544,10 @@
         <source>as it was seen last, exposure %1</source>
         <translation>最後に見た状態、露出 %1</translation>
     </message>
+    <message>
+        <source>%1 of full light was too bright in every exposure. “Check again” looks through the camera.</source>
+        <translation>全光の %1 がどの露出でも明るすぎました。「再確認」でカメラの映像を見ます。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -6880,6 +6884,22 @@ projector %2</source>
     <message>
         <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
         <translation>予測より大きくなっています。ドリフトを確認すると、何かが動いたかどうかが分かります。</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>登録すると、ログインするたびに、ウィザードなしでショーが始まります。カメラはそのまま残し、夜間に画像の手入れをします。</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph. What was found before is not settled.</source>
+        <translation>検証写真を撮影してください。以前に見つかったことは解決していません。</translation>
+    </message>
+    <message>
+        <source>The surface did not look as predicted. Open the output: it leads to what helps.</source>
+        <translation>面は予測どおりに見えませんでした。出力を開くと、次にすることが分かります。</translation>
+    </message>
+    <message>
+        <source>Black: the frozen picture stands unseen until you show it again.</source>
+        <translation>黒：静止した画像は、再び表示するまで見えません。</translation>
     </message>
 </context>
 <context>

@@ -4544,6 +4544,10 @@
         <source>as it was seen last, exposure %1</source>
         <translation>上次看到的画面，曝光 %1</translation>
     </message>
+    <message>
+        <source>%1 of full light was too bright in every exposure. “Check again” looks through the camera.</source>
+        <translation>全光下有 %1 在每种曝光下都过亮。“重新检查”会通过相机查看。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -6880,6 +6884,22 @@ projector %2</source>
     <message>
         <source>They are larger than predicted. A check for drift tells whether something has moved.</source>
         <translation>误差大于预测。检查漂移可知是否有东西移动了。</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without wizard. The camera stays: at night it looks after the picture.</source>
+        <translation>安装后，每次登录时节目自动开始，无需向导。相机保留：它在夜间照看画面。</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph. What was found before is not settled.</source>
+        <translation>请拍摄验证照片。之前发现的情况尚未解决。</translation>
+    </message>
+    <message>
+        <source>The surface did not look as predicted. Open the output: it leads to what helps.</source>
+        <translation>表面看起来与预测不符。请打开输出：它会引导您找到解决办法。</translation>
+    </message>
+    <message>
+        <source>Black: the frozen picture stands unseen until you show it again.</source>
+        <translation>黑屏：冻结的画面不可见，直到再次显示。</translation>
     </message>
 </context>
 <context>

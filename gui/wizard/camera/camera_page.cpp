@@ -121,13 +121,18 @@ CameraPage::~CameraPage() {
   finish();
 }
 
+double CameraPage::keptTooBright() const {
+  const auto& kept = session_.figures<calibration::Stage::camera>();
+  return kept ? kept->tooBright : 0.0;
+}
+
 StepStatus CameraPage::status() const {
   if (isLooking()) {
     bool done = session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
     return {done ? StepState::done : StepState::open, areChecksDone() ? tr("Checks done") : tr("Checking")};
   }
   if (const auto& result = session_.result(calibration::Stage::camera)) {
-    const double bright = session_.figures<calibration::Stage::camera>()->tooBright;
+    const double bright = keptTooBright();
     if (bright > mostTooBright) return {StepState::doubtful, tr("%1 too bright").arg(percentText(bright))};
     QDateTime when = QDateTime::fromString(QString::fromStdString(result->stored), Qt::ISODate).toLocalTime();
     return {StepState::done, tr("Checked %1").arg(QLocale().toString(when.time(), QLocale::ShortFormat))};

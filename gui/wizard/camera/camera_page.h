@@ -104,6 +104,8 @@ class CameraPage : public DevicePage {
   std::optional<double> tooBrightEverywhere() const { return tooBrightEverywhere(camera()); }
   std::optional<double> tooDarkEverywhere() const { return tooDarkEverywhere(camera()); }
   std::optional<double> tooBrightEverywhere(std::size_t camera) const;
+  /// When the exposures were kept, as the rail has it.
+  double keptTooBright() const;
   std::optional<double> tooDarkEverywhere(std::size_t camera) const;
   /// What may be made of the camera's pixels; empty before it has been looked at, and where it has no more
   /// than the projection needs.

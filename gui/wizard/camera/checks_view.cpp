@@ -172,6 +172,12 @@ void judge(Remark* verdict, const std::optional<double>& share, const QString& g
 /// Whether the camera sees the projector at all, as far as somebody looks or has looked.
 void showWhetherSeen(CameraPage& model, Remark* sees) {
   if (model.needsCamera()) return sees->show(Kind::watch, CameraPage::tr("No camera is chosen yet"), {});
+  if (model.isKept() && model.status().state == StepState::doubtful)
+    return sees->show(
+        Kind::warning, CameraPage::tr("Checked before"),
+        CameraPage::tr("%1 of full light was too bright in every exposure. “Check again” looks through "
+                       "the camera.")
+            .arg(percentText(model.keptTooBright())));
   if (model.isKept())
     return sees->show(Kind::good, CameraPage::tr("Checked before"),
                       CameraPage::tr("These exposures are kept. “Check again” looks through the camera."));

@@ -28,7 +28,10 @@ std::optional<double> measuredChanges(const Session& session) {
   if (!measured || !measured->cost) return std::nullopt;
   // There the patterns are photographed with every exposure, those of the light transport mostly with one.
   const double photographs = measured->cost->exposures, seconds = measured->cost->seconds;
-  return photographs > 0.0 && seconds > 0.0 ? std::optional(photographs / seconds) : std::nullopt;
+  if (!(photographs > 0.0) || !(seconds > 0.0)) return std::nullopt;
+  // A mean that a cable pulled or a pause makes small calms nobody: what is safe for all is not claimed.
+  const double changes = photographs / seconds;
+  return changes > Session::audienceLimit ? std::optional(changes) : std::nullopt;
 }
 
 FlashConsent::FlashConsent(QWidget* parent)

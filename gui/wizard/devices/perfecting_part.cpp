@@ -5,6 +5,7 @@
 #include <QLocale>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "output/output_playlist.h"
 #include "text/message_text.h"
@@ -134,13 +135,19 @@ QWidget* perfectingPart(DevicePage& page, Perfecting& perfecting, const Perfecti
   QObject::connect(stop, &QPushButton::clicked, &perfecting, &Perfecting::stopAndKeep);
   QObject::connect(forget, &QPushButton::clicked, &perfecting, &Perfecting::forget);
   auto refresh = [=, &perfecting] {
+    // From picture to picture of a list that plays, what is below keeps its place once there was most to say.
+    state->setMinimumHeight(std::max(state->minimumHeight(), state->height()));
     showState(*state, perfecting);
     perfect->setVisible(!perfecting.isRunning());
     perfect->setText(perfecting.known() ? Perfecting::tr("Perfect it again")
                                         : Perfecting::tr("Perfect this picture"));
     perfect->setWhyNot(actions.whyNot());
     stop->setVisible(perfecting.isRunning());
-    forget->setVisible(perfecting.known().has_value() && !perfecting.isRunning());
+    const bool isKnown = perfecting.known().has_value() && !perfecting.isRunning();
+    QSizePolicy place = forget->sizePolicy();
+    place.setRetainSizeWhenHidden(isKnown || place.retainSizeWhenHidden());
+    forget->setSizePolicy(place);
+    forget->setVisible(isKnown);
   };
   refreshOn(page, part, refresh, &DevicePage::settingsChanged, &DevicePage::resultChanged);
   QObject::connect(&perfecting, &Perfecting::changed, part, refresh);

@@ -301,6 +301,11 @@ QString installedText(const OutputPage& page) {
     case InstalledShow::none:
       break;
   }
+  if (page.isInstallable() && page.nightAt().isValid())
+    return OutputPage::tr(
+        "Once installed, the show starts at every log-in, without wizard. The camera stays: at night it "
+        "looks "
+        "after the picture.");
   return page.isInstallable()
              ? OutputPage::tr("Once installed, the show starts at every log-in, without camera or wizard.")
              : OutputPage::tr(

@@ -141,6 +141,7 @@ StepStatus OutputPage::status() const {
                              : isFrozen()   ? tr("Frozen")
                                             : tr("Playing")};
   if (session_.isShownElsewhere()) return {StepState::busy, tr("Another program plays")};
+  if (isDoubted) return {StepState::doubtful, tr("Not as predicted")};
   if (proof_.isOutOfDate()) return {StepState::outOfDate, tr("Proof out of date")};
   if (isInstalled()) return {StepState::done, tr("Show installed")};
   return {};
@@ -197,6 +198,8 @@ QString OutputPage::hint() const {
     switch (proof_.next()) {
       case OutputProof::Next::photograph:
         if (isBlack() || isFrozen() || showsChart() || isInstalled()) return playingHint();
+        if (isInstallable() && isJudged())
+          return tr("Take a verification photograph. What was found before is not settled.");
         return isInstallable()
                    ? tr("Take a verification photograph, or install without proof.")
                    : tr("Take a verification photograph: it proves that the venue is measured well.");
@@ -222,13 +225,21 @@ QString OutputPage::hint() const {
     }
   }
   if (session_.isShownElsewhere()) return tr("Another program plays a show of this venue.");
+  if (proof_.next() != OutputProof::Next::install && proof_.next() != OutputProof::Next::photograph)
+    return tr("The surface did not look as predicted. Open the output: it leads to what helps.");
   if (isOnPageOnly()) return tr("This rehearsal plays on this page only: nothing is projected.");
   if (coversOperator()) return tr("The output will cover this window. Esc closes the output.");
   return tr("Nothing is projected before you open the output.");
 }
 
+/// Something was found of what is shown now.
+bool OutputPage::isJudged() const {
+  return (proof_.proof() && !proof_.isOutOfDate()) || proof_.drift();
+}
+
 /// While nothing stands against the show: what it does, in one voice with the rail.
 QString OutputPage::playingHint() const {
+  if (isBlack() && isFrozen()) return tr("Black: the frozen picture stands unseen until you show it again.");
   if (isBlack()) return tr("Black: the show goes on unseen until you show it again.");
   if (showsChart()) return tr("A test chart is on the surface. T shows the next one, then the playlist.");
   if (isFrozen()) return tr("Frozen: this picture stands until you press Play.");
@@ -243,10 +254,9 @@ void OutputPage::updateCommands() {
   open_->show(tr("Open output"), !projectorWithoutScreen() && !playlist_.isEmpty() &&
                                      !projection_.isOpening() && session_.areDevicesFree());
   const bool isProved = proof_.next() == OutputProof::Next::install;
-  const bool isJudged = (proof_.proof() && !proof_.isOutOfDate()) || proof_.drift();
   install_->show(isInstalled() ? tr("Install again")
                  : isProved    ? tr("Install show")
-                 : isJudged    ? tr("Install anyway")
+                 : isJudged()  ? tr("Install anyway")
                                : tr("Install without proof"),
                  isInstallable() && !playlist_.isEmpty());
   renew_->show(tr("Show the current correction"), session_.areDevicesFree() && !projectorWithoutScreen());

@@ -198,6 +198,7 @@ class OutputPage : public DevicePage {
   void whileClosed(const std::function<void()>& work);
   void proofEnded();
   void repairEnded();
+  bool isJudged() const;
   void undoRepair();
   void lookAtPicture();
   Canvas canvasOfPicture() const;

@@ -25,8 +25,6 @@ namespace relucent::gui {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int audienceLimit = 3;  // patterns a second
-
 struct ProjectorSize {
   std::size_t projector = 0;
   Size operator()(const pipeline::ReplayRigSettings&) const { return {}; }  // only the recording knows

@@ -279,6 +279,8 @@ class Session : public QObject {
   /// Patterns a second at most that real projectors show; 0: as quickly as they can.
   void setFlashLimit(int changesPerSecond);
   int flashLimit() const { return flashLimit_; }
+  /// Patterns a second that need nobody's consent.
+  static constexpr int audienceLimit = 3;
   /// Somebody has said that the room is clear and everyone in it knows. Never remembered: said for each
   /// opening, and anew once nothing has used the devices for a while, in which others may have come in.
   bool isRoomClear() const { return roomClear_; }

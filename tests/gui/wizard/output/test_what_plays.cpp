@@ -335,6 +335,20 @@ class TestWhatPlays : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(plays(false) && page_->projection().statistics().frames > 1, patience);
   }
 
+  /// Law: what a photograph found stands, whether or not the output is open.
+  void whatDoesNotLookAsPredictedIsSaidWhileClosed() {
+    becomes([](venue::Changes& changes) { changes.cameras.push_back({0, 2.0, 2.0, 0.0}); });
+    openOutput();
+    page_->verify();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().proof() && isIdle(), patience);
+    QVERIFY(!page_->proof().proof()->isAsPredicted());
+    page_->close();
+    QTRY_VERIFY_WITH_TIMEOUT(!page_->isOpen(), patience);
+    QCOMPARE(page_->status().state, StepState::doubtful);
+    QCOMPARE(page_->status().result, QString("Not as predicted"));
+    QVERIFY2(page_->hint().contains("did not look as predicted"), qPrintable(page_->hint()));
+  }
+
   /// Law: what was tried in vain is of the view that it was tried of: put back, or looked at once more, it
   /// may be tried again.
   void aRepairInVainIsOfWhatItSaw() {

@@ -487,7 +487,7 @@ class Renewing {
             .exposures = run_.shots.exposures() - exposuresBefore_,
             .stoppedAt = former_.stoppedAt,
             .expected = former_.expected,
-            .findings = {},
+            .findings = former_.findings,  // of how that was measured which stays
             .overexposed = former_.overexposed};
   }
 

@@ -234,7 +234,10 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.libraries = settings.libraries.empty() ? pipeline::coreLibraries() : settings.libraries;
   if (auto acquired = calibration::resultOf(folder, calibration::Stage::acquisition)) {
     data.measured = acquired->stored;
-    data.stoppedAt = calibration::resultFrom<calibration::Stage::acquisition>(*acquired).stoppedAt;
+    const auto found = calibration::resultFrom<calibration::Stage::acquisition>(*acquired);
+    data.stoppedAt = found.stoppedAt;
+    if (const auto& repair = found.repair)
+      data.repaired = {acquired->stored, repair->what, repair->deltaEBefore, repair->deltaEAfter};
     data.verification = verificationIn(folder, *acquired, transport.cameras().devices());
     data.drift = driftIn(folder.path(), *acquired);
     // What was found before the last photograph is answered by it.

@@ -82,11 +82,22 @@ const char* stays(const ReportComparison& shown) {
   return isBright ? "brighter than it should: black level and room light" : "darker than it should";
 }
 
+std::string repairSentence(const ReportRepair& repair) {
+  std::string what;
+  for (const Message& message : repair.what) what += englishSentence(message) + " ";
+  return fmt::format(
+      "Repaired on {}: only what had changed was measured again. {}The mean colour error ΔE of a "
+      "photographed "
+      "picture went from {:.1f} to {:.1f}.",
+      localTime(repair.when), what, repair.deltaEBefore, repair.deltaEAfter);
+}
+
 /// What stands out, and what was proved.
 void setFindings(Data& page, const ReportData& data) {
   Data warnings(Data::type::list), assurances(Data::type::list);
   addAlarm(data, warnings);
   addVerdicts(data, warnings, assurances);
+  if (data.repaired) assurances << Data(repairSentence(*data.repaired));
   for (const Message& finding : data.result.findings)
     if (!isAboutStopping(finding)) warnings << Data(englishSentence(finding));
   if (const int blocks = data.stoppedAt; blocks > 0)
@@ -354,6 +365,7 @@ Data pageOf(const ReportData& data) {
   page.set("venue", data.venue);
   page.set("devices", devicesText(data));
   page.set("measured", localTime(data.measured));
+  page.set("repaired", data.repaired.has_value());
   page.set("software", data.software);
   page.set("cards", cards(data));
   setFindings(page, data);

@@ -68,13 +68,21 @@ struct ReportPerfected {
   pipeline::PerfectedFigures figures;
 };
 
+/// That only what had changed was measured again.
+struct ReportRepair {
+  std::string when;  // ISO 8601
+  std::vector<Message> what;
+  double deltaEBefore = 0.0, deltaEAfter = 0.0;  // of a photographed picture
+};
+
 /// Everything that a report shows. What is empty is left out.
 struct ReportData {
   std::string title;  // the calibration's name
   std::string venue;  // "Simulated venue corner: a glossy V-shaped corner before wallpaper"
   bool isSimulated = false;
   std::string software;  // that measured
-  std::string measured;  // when, ISO 8601
+  std::string measured;  // when, ISO 8601; of a repaired venue that is when it was repaired
+  std::optional<ReportRepair> repaired;
   Size projector;
   Size camera;
   std::size_t projectors = 1, cameras = 1;  // those are the first ones' sizes

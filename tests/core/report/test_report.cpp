@@ -160,6 +160,25 @@ class TestReport : public QObject {
     QCOMPARE(found.next().captured(1), found.next().captured(1));
   }
 
+  /// Law: a client reads what was done to what was measured, and when; no repair is taken for a measurement.
+  void aRepairIsTold() {
+    ReportData data = fullData();
+    QVERIFY(!QString::fromStdString(reportHtml(data)).contains("Repaired"));
+    data.repaired = {
+        "2026-01-02T03:04:05Z",
+        {RELUCENT_MESSAGE("repair.surface-changed",
+                          "{} % of what the cameras see is brighter, darker or of another colour than "
+                          "it was")
+             .with(as::share(0.048, as::decimals(1)))},
+        5.04,
+        2.53};
+    const QString html = QString::fromStdString(reportHtml(data));
+    const QString when = QString::fromStdString(localTime(data.repaired->when));
+    QVERIFY(html.contains("Repaired " + when) && !html.contains("Measured " + when));
+    QVERIFY(html.contains("Repaired on " + when));
+    QVERIFY(html.contains("4.8 % of what the cameras see") && html.contains("from 5.0 to 2.5"));
+  }
+
   void numbersAsTheyAreRead() {
     QCOMPARE(percent(-0.00001), std::string("0 %"));
     QCOMPARE(percent(0.0003), std::string("0.03 %"));

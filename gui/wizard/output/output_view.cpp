@@ -306,7 +306,8 @@ class OutputStage : public QWidget {
     const QString when = QLocale().toString(shown_->taken.time(), QLocale::ShortFormat);
     const QString taken = page_.proof().isOutOfDate() ? OutputPage::tr("taken %1, out of date").arg(when)
                                                       : OutputPage::tr("taken %1").arg(when);
-    if (shown_->picture.isEmpty()) return taken;
+    // Of what is out of date nobody has to read which picture it was: there is no room for both.
+    if (shown_->picture.isEmpty() || page_.proof().isOutOfDate()) return taken;
     return QString("%1, %2").arg(taken, isolated(OutputPlaylist::nameOf(shown_->picture)));
   }
   /// Over the projector's picture: how it goes.

@@ -160,11 +160,11 @@ class TestVenueScreen : public QObject {
     QVERIFY(!measuredChanges(*session_));
     {
       CalibrationFolder folder = CalibrationFolder::open(session_->path(), CalibrationFolder::Access::write);
-      const StageCost cost{.seconds = 10.0, .patterns = 10, .exposures = 30};
+      const StageCost cost{.seconds = 10.0, .patterns = 10, .exposures = 40};
       storeLinearization(folder, fingerprintOf(folder, Stage::linearization), {}, cost);
     }
     session_->reload();
-    QCOMPARE(measuredChanges(*session_), std::optional(3.0));
+    QCOMPARE(measuredChanges(*session_), std::optional(4.0));
   }
 
   void nothingIsChangedWhileSomethingUsesIt() {

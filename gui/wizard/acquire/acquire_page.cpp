@@ -162,7 +162,7 @@ QString AcquirePage::hint() const {
   if (isReading())
     return tr("The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.",
               nullptr, kept_);
-  if (const auto why = trace_.isTakingAgain(); isMeasuring() && why)
+  if (const auto why = trace_.takesAgainFor(); isMeasuring() && why)
     return tr("%1: what was photographed since the check before is taken again.")
         .arg(AcquisitionTrace::headingOf(*why));
   if (isMeasuring())

@@ -241,7 +241,7 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
   return states;
 }
 
-std::optional<sentinels::AlarmKind> AcquisitionTrace::isTakingAgain() const {
+std::optional<sentinels::AlarmKind> AcquisitionTrace::takesAgainFor() const {
   return !points_.empty() && !isRecalled_ && isAnswered() ? points_.back().reading.alarm : std::nullopt;
 }
 

@@ -73,7 +73,7 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   /// As it was seen last; none before it was.
   std::optional<RoomLight> roomLight() const;
   /// Why patterns are being photographed again: what the last check found, until the next one.
-  std::optional<sentinels::AlarmKind> isTakingAgain() const;
+  std::optional<sentinels::AlarmKind> takesAgainFor() const;
   /// The last ones, newest first.
   std::vector<TakenAgain> takenAgain(std::size_t most) const;
 

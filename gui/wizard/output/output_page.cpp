@@ -132,16 +132,14 @@ StepStatus OutputPage::status() const {
   if (const QString work = photographicWork(); !work.isEmpty()) return {StepState::busy, work};
   if (isCovered()) return {StepState::busy, tr("Covered by %1").arg(session_.devicesUserName())};
   if (playsEarlier()) return {StepState::busy, tr("Another correction"), false, true};
-  const OutputProof::Next next = proof_.next();
-  const bool isDoubted = next != OutputProof::Next::install && next != OutputProof::Next::photograph;
-  if (isOpen() && isDoubted) return {StepState::busy, tr("Not as predicted"), false, true};
+  if (isOpen() && isDoubted()) return {StepState::busy, tr("Not as predicted"), false, true};
   if (isOpen())
     return {StepState::busy, isBlack()      ? tr("Black")
                              : showsChart() ? tr("Test chart")
                              : isFrozen()   ? tr("Frozen")
                                             : tr("Playing")};
   if (session_.isShownElsewhere()) return {StepState::busy, tr("Another program plays")};
-  if (isDoubted) return {StepState::doubtful, tr("Not as predicted")};
+  if (isDoubted()) return {StepState::doubtful, tr("Not as predicted")};
   if (proof_.isOutOfDate()) return {StepState::outOfDate, tr("Proof out of date")};
   if (isInstalled()) return {StepState::done, tr("Show installed")};
   return {};
@@ -225,11 +223,17 @@ QString OutputPage::hint() const {
     }
   }
   if (session_.isShownElsewhere()) return tr("Another program plays a show of this venue.");
-  if (proof_.next() != OutputProof::Next::install && proof_.next() != OutputProof::Next::photograph)
+  if (isDoubted())
     return tr("The surface did not look as predicted. Open the output: it leads to what helps.");
   if (isOnPageOnly()) return tr("This rehearsal plays on this page only: nothing is projected.");
   if (coversOperator()) return tr("The output will cover this window. Esc closes the output.");
   return tr("Nothing is projected before you open the output.");
+}
+
+/// What was found of it last asks for more than a photograph.
+bool OutputPage::isDoubted() const {
+  const OutputProof::Next next = proof_.next();
+  return next != OutputProof::Next::install && next != OutputProof::Next::photograph;
 }
 
 /// Something was found of what is shown now.

@@ -199,6 +199,7 @@ class OutputPage : public DevicePage {
   void proofEnded();
   void repairEnded();
   bool isJudged() const;
+  bool isDoubted() const;
   void undoRepair();
   void lookAtPicture();
   Canvas canvasOfPicture() const;

@@ -6,6 +6,7 @@
 #include <QFileInfo>
 
 #include "relucent/base/error.h"
+#include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "wizard/session/kept_shots.h"
@@ -35,11 +36,11 @@ QString stateOf(const calibration::CalibrationFolder& folder) {
                    calibration::StageProgress::open
                ? Translated::tr("Nothing measured yet")
                : Translated::tr("Acquire is next");
-  const calibration::StageResults results = calibration::resultsIn(folder);
-  const auto& measured = std::get<static_cast<std::size_t>(calibration::Stage::acquisition)>(results);
-  if (measured && measured->changed) return Translated::tr("Ended by a change");
-  if (measured && measured->stoppedAt > 0)
-    return Translated::tr("Stopped at blocks of %1 px").arg(measured->stoppedAt);
+  if (const auto stored = calibration::resultOf(folder, calibration::Stage::acquisition)) {
+    const auto measured = calibration::resultFrom<calibration::Stage::acquisition>(*stored);
+    if (measured.changed) return Translated::tr("Ended by a change");
+    if (measured.stoppedAt > 0) return Translated::tr("Stopped at blocks of %1 px").arg(measured.stoppedAt);
+  }
   if (calibration::progressOf(folder, calibration::Stage::content) == calibration::StageProgress::done)
     return Translated::tr("Ready to play");
   if (calibration::progressOf(folder, calibration::Stage::content) == calibration::StageProgress::stale)

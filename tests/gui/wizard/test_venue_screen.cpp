@@ -12,7 +12,6 @@
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/pipeline/stored_settings.h"
-#include "wizard/devices/flash_consent.h"
 #include "wizard/output/output_page.h"
 #include "wizard/venue/venue_page.h"
 
@@ -152,19 +151,6 @@ class TestVenueScreen : public QObject {
     QVERIFY(!page.mayAddProjector());
     page.addProjector();
     QCOMPARE(page.projectors().size(), std::size_t{1});
-  }
-
-  /// Law: how often light flashes is told by photographs: of patterns each may have several.
-  void flashesAreCountedByPhotographs() {
-    begin(true);
-    QVERIFY(!measuredChanges(*session_));
-    {
-      CalibrationFolder folder = CalibrationFolder::open(session_->path(), CalibrationFolder::Access::write);
-      const StageCost cost{.seconds = 10.0, .patterns = 10, .exposures = 40};
-      storeLinearization(folder, fingerprintOf(folder, Stage::linearization), {}, cost);
-    }
-    session_->reload();
-    QCOMPARE(measuredChanges(*session_), std::optional(4.0));
   }
 
   void nothingIsChangedWhileSomethingUsesIt() {

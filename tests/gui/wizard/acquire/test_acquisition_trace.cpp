@@ -146,10 +146,10 @@ class TestAcquisitionTrace : public QObject {
         states[0].figure.contains(decimalText(0.65, 2)) && states[0].figure.contains(decimalText(0.35, 2)),
         qPrintable(states[0].figure));
     // Taken again, what was put right is no warning any more; whether it is good says the next check.
-    QVERIFY(!trace.isTakingAgain());
+    QVERIFY(!trace.takesAgainFor());
     trace.takenAgain({20, 21, RetakeReason::alarm, kind});
     QCoreApplication::processEvents();
-    QCOMPARE(trace.isTakingAgain(), kind);
+    QCOMPARE(trace.takesAgainFor(), kind);
     states = trace.states();
     for (int i = 0; i < 4; ++i) {
       QVERIFY(states[static_cast<std::size_t>(i)].isSteady);
@@ -159,7 +159,7 @@ class TestAcquisitionTrace : public QObject {
     trace.checked(readingAt(40));
     QCoreApplication::processEvents();
     for (const WatchState& watch : trace.states()) QVERIFY(watch.isSteady && watch.isKnown);
-    QVERIFY(!trace.isTakingAgain());
+    QVERIFY(!trace.takesAgainFor());
   }
 
   void flickerBeyondItsLimitIsAState() {

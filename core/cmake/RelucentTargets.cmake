@@ -25,6 +25,11 @@ if(RELUCENT_SANITIZERS)
   if(RELUCENT_SANITIZERS MATCHES "address.*undefined")
     target_compile_options(relucent_options INTERFACE -fno-sanitize=null,object-size,alignment,pointer-overflow)
   endif()
+  # Eigen keeps books of its own where the address sanitizer's allocations may be aligned less than the system's, which
+  # they are not. What it allocates here may be freed by a test of another build, and the other way round.
+  if(RELUCENT_SANITIZERS MATCHES "address")
+    target_compile_definitions(relucent_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+  endif()
   target_link_options(relucent_options INTERFACE -fsanitize=${RELUCENT_SANITIZERS})
 endif()
 

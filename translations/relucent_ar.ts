@@ -332,6 +332,10 @@
         <source>Stopped at blocks of %1 px</source>
         <translation>أُوقف عند كتل من ⁨%1 px⁩</translation>
     </message>
+    <message>
+        <source>Stopped at %1 px; newer patterns: %2</source>
+        <translation>أُوقف عند ⁨%1 px⁩؛ أنماط أحدث: %2</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -7081,6 +7085,10 @@ projector %2</source>
         <source>Black: the frozen picture stands unseen until you show it again.</source>
         <translation>أسود: تبقى الصورة المجمّدة غير مرئية حتى تُظهرها من جديد.</translation>
     </message>
+    <message>
+        <source>still picture, perfected by photographs</source>
+        <translation>صورة ثابتة، حُسِّنت بالصور</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9788,6 +9796,10 @@ projector %2</source>
     <message>
         <source>As many as the chosen screen has.</source>
         <translation>بقدر ما للشاشة المختارة.</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>متابعة</translation>
     </message>
 </context>
 <context>

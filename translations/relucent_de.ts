@@ -320,6 +320,10 @@
         <source>Stopped at blocks of %1 px</source>
         <translation>Gestoppt bei Blöcken von %1 px</translation>
     </message>
+    <message>
+        <source>Stopped at %1 px; newer patterns: %2</source>
+        <translation>Gestoppt bei %1 px; neuere Muster: %2</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -6937,6 +6941,10 @@ Projektor %2</translation>
         <source>Black: the frozen picture stands unseen until you show it again.</source>
         <translation>Schwarz: Das eingefrorene Bild steht ungesehen, bis Sie es wieder zeigen.</translation>
     </message>
+    <message>
+        <source>still picture, perfected by photographs</source>
+        <translation>Standbild, durch Fotos perfektioniert</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9588,6 +9596,10 @@ Projektor %2</translation>
     <message>
         <source>As many as the chosen screen has.</source>
         <translation>So viele, wie der gewählte Bildschirm hat.</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>Weiter</translation>
     </message>
 </context>
 <context>

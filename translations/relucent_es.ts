@@ -320,6 +320,10 @@
         <source>Stopped at blocks of %1 px</source>
         <translation>Detenida en bloques de %1 px</translation>
     </message>
+    <message>
+        <source>Stopped at %1 px; newer patterns: %2</source>
+        <translation>Detenida en %1 px; patrones más nuevos: %2</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -6937,6 +6941,10 @@ proyector %2</translation>
         <source>Black: the frozen picture stands unseen until you show it again.</source>
         <translation>Negro: la imagen congelada queda oculta hasta que vuelva a mostrarla.</translation>
     </message>
+    <message>
+        <source>still picture, perfected by photographs</source>
+        <translation>imagen fija, perfeccionada con fotografías</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9588,6 +9596,10 @@ proyector %2</translation>
     <message>
         <source>As many as the chosen screen has.</source>
         <translation>Tantos como tiene la pantalla elegida.</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>Continuar</translation>
     </message>
 </context>
 <context>

@@ -320,6 +320,10 @@
         <source>Stopped at blocks of %1 px</source>
         <translation>Arrêtée à des blocs de %1 px</translation>
     </message>
+    <message>
+        <source>Stopped at %1 px; newer patterns: %2</source>
+        <translation>Arrêtée à %1 px ; motifs plus récents : %2</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -6937,6 +6941,10 @@ projecteur %2</translation>
         <source>Black: the frozen picture stands unseen until you show it again.</source>
         <translation>Noir : l’image figée reste invisible jusqu’à ce que vous la montriez de nouveau.</translation>
     </message>
+    <message>
+        <source>still picture, perfected by photographs</source>
+        <translation>image fixe, perfectionnée par des photos</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9588,6 +9596,10 @@ projecteur %2</translation>
     <message>
         <source>As many as the chosen screen has.</source>
         <translation>Autant que l’écran choisi en a.</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>Continuer</translation>
     </message>
 </context>
 <context>

@@ -320,6 +320,10 @@
         <source>Stopped at blocks of %1 px</source>
         <translation>Fermata a blocchi di %1 px</translation>
     </message>
+    <message>
+        <source>Stopped at %1 px; newer patterns: %2</source>
+        <translation>Fermata a %1 px; motivi più recenti: %2</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -6937,6 +6941,10 @@ proiettore %2</translation>
         <source>Black: the frozen picture stands unseen until you show it again.</source>
         <translation>Nero: l’immagine ferma resta nascosta finché non la si mostra di nuovo.</translation>
     </message>
+    <message>
+        <source>still picture, perfected by photographs</source>
+        <translation>immagine fissa, perfezionata con fotografie</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9588,6 +9596,10 @@ proiettore %2</translation>
     <message>
         <source>As many as the chosen screen has.</source>
         <translation>Tanti quanti ne ha lo schermo scelto.</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>Continua</translation>
     </message>
 </context>
 <context>

@@ -317,6 +317,10 @@
         <source>Stopped at blocks of %1 px</source>
         <translation>%1 px のブロックで停止</translation>
     </message>
+    <message>
+        <source>Stopped at %1 px; newer patterns: %2</source>
+        <translation>%1 px で停止、新しいパターン：%2</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -6901,6 +6905,10 @@ projector %2</source>
         <source>Black: the frozen picture stands unseen until you show it again.</source>
         <translation>黒：静止した画像は、再び表示するまで見えません。</translation>
     </message>
+    <message>
+        <source>still picture, perfected by photographs</source>
+        <translation>静止画、写真により仕上げ済み</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9538,6 +9546,10 @@ projector %2</source>
     <message>
         <source>As many as the chosen screen has.</source>
         <translation>選んだ画面の画素数と同じです。</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>続ける</translation>
     </message>
 </context>
 <context>

@@ -317,6 +317,10 @@
         <source>Stopped at blocks of %1 px</source>
         <translation>在 %1 px 的块处停止</translation>
     </message>
+    <message>
+        <source>Stopped at %1 px; newer patterns: %2</source>
+        <translation>在 %1 px 处停止；更新的图案：%2</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -6901,6 +6905,10 @@ projector %2</source>
         <source>Black: the frozen picture stands unseen until you show it again.</source>
         <translation>黑屏：冻结的画面不可见，直到再次显示。</translation>
     </message>
+    <message>
+        <source>still picture, perfected by photographs</source>
+        <translation>静态图像，已由照片完善</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9538,6 +9546,10 @@ projector %2</source>
     <message>
         <source>As many as the chosen screen has.</source>
         <translation>与所选屏幕的像素数相同。</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>继续</translation>
     </message>
 </context>
 <context>

@@ -129,6 +129,8 @@ class PageModel : public QObject {
   void remedyWanted();
   /// The step is done: the next one, please.
   void nextWanted();
+  /// Where the open calibration stands, please.
+  void standingWanted();
   /// That step, please: by its id.
   void stepWanted(const QString& id);
   void failed(const gui::FailureReport& report);

@@ -22,6 +22,7 @@ void Wizard::add(PageModel& page) {
   connect(&page, &PageModel::statusChanged, this, &Wizard::statusChanged);
   connect(&page, &PageModel::progressChanged, this, &Wizard::progressChanged);
   connect(&page, &PageModel::nextWanted, this, &Wizard::next);
+  connect(&page, &PageModel::standingWanted, this, [this] { go(standing()); });
   connect(&page, &PageModel::stepWanted, this, [this](const QString& id) {
     for (std::size_t i = 0; i < pages_.size(); ++i)
       if (pages_[i]->step().id == id) go(i);

@@ -317,6 +317,7 @@ class OutputStage : public QWidget {
     if (page_.playsEarlier()) return OutputPage::tr("Another correction");
     if (page_.isBlack()) return OutputPage::tr("Black");
     if (page_.showsChart()) return OutputPage::tr("Test chart");
+    if (s.perfected) return OutputPage::tr("still picture, perfected by photographs");
     QString clipped = percentText(s.clipped);
     if (!(s.framesPerSecond > 0.0))
       return OutputPage::tr("still picture, %1 of the pixels at their limit").arg(clipped);

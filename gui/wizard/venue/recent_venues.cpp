@@ -28,9 +28,8 @@ QString folderOf(const QString& entry) {
 QString stateOf(const calibration::CalibrationFolder& folder) {
   const bool isFirst =
       calibration::progressOf(folder, calibration::Stage::acquisition) == calibration::StageProgress::open;
-  if (const int kept = photographsInterrupted(folder); kept > 0)
-    return isFirst ? Translated::tr("Interrupted: %n pattern(s) are safe", nullptr, kept)
-                   : Translated::tr("Measured; %n newer pattern(s) are safe", nullptr, kept);
+  const int kept = photographsInterrupted(folder);
+  if (isFirst && kept > 0) return Translated::tr("Interrupted: %n pattern(s) are safe", nullptr, kept);
   if (isFirst)
     return calibration::progressOf(folder, calibration::Stage::linearization) ==
                    calibration::StageProgress::open
@@ -39,8 +38,11 @@ QString stateOf(const calibration::CalibrationFolder& folder) {
   if (const auto stored = calibration::resultOf(folder, calibration::Stage::acquisition)) {
     const auto measured = calibration::resultFrom<calibration::Stage::acquisition>(*stored);
     if (measured.changed) return Translated::tr("Ended by a change");
+    if (measured.stoppedAt > 0 && kept > 0)
+      return Translated::tr("Stopped at %1 px; newer patterns: %2").arg(measured.stoppedAt).arg(kept);
     if (measured.stoppedAt > 0) return Translated::tr("Stopped at blocks of %1 px").arg(measured.stoppedAt);
   }
+  if (kept > 0) return Translated::tr("Measured; %n newer pattern(s) are safe", nullptr, kept);
   if (calibration::progressOf(folder, calibration::Stage::content) == calibration::StageProgress::done)
     return Translated::tr("Ready to play");
   if (calibration::progressOf(folder, calibration::Stage::content) == calibration::StageProgress::stale)

@@ -47,7 +47,7 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
       openScreen_(session),
       openPrograms_(session),
       endQuestion_(session) {
-  checkCamera_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
+  continue_ = addCommand(Icon::next, [this] { Q_EMIT standingWanted(); });
   begin_ = addCommand(Icon::next, [this] { begin(); });
   useScreen_ = addCommand(Icon::projector, [this] { use([this] { openScreen_.apply(); }); });
   changeScreen_ = addCommand(Icon::projector, [this] { setMode(Mode::screen); });
@@ -153,7 +153,8 @@ QString VenuePage::hint() const {
 }
 
 void VenuePage::updateCommands() {
-  checkCamera_->show(tr("Check camera"));
+  const bool isBegun = session_.result(calibration::Stage::linearization).has_value();
+  continue_->show(isBegun ? tr("Continue") : tr("Check camera"));
   useScreen_->show(tr("Use this screen"), problem().isEmpty());
   usePrograms_->show(tr("Use these commands"), problem().isEmpty());
   begin_->setGlyph(mode_ == Mode::rehearse ? Icon::play : Icon::next);
@@ -167,7 +168,7 @@ void VenuePage::updateCommands() {
 }
 
 PageCommand* VenuePage::primary() const {
-  if (mode_ == Mode::start) return session_.isOpen() ? checkCamera_ : nullptr;
+  if (mode_ == Mode::start) return session_.isOpen() ? continue_ : nullptr;
   if (mode_ == Mode::programs) return usePrograms_;
   return mode_ == Mode::screen ? useScreen_ : begin_;
 }

@@ -231,7 +231,7 @@ class VenuePage : public PageModel {
   QString usualFolder_;
   bool roomClear_ = false;
   bool named_ = false;  // by the user
-  PageCommand *checkCamera_, *begin_, *useScreen_, *changeScreen_, *usePrograms_, *changePrograms_;
+  PageCommand *continue_, *begin_, *useScreen_, *changeScreen_, *usePrograms_, *changePrograms_;
   PageCommand *remove_, *keepVenue_, *allowPrograms_, *openWithout_;  // of a question
 };
 

@@ -90,6 +90,10 @@ class TestWizard : public QObject {
     QCOMPARE(pages[2].entered, 1);
     QVERIFY(pages[2].updated > 0);  // what no signal told meanwhile
     QCOMPARE(pages[1].updated, 0);
+    // From the start it goes on where it stands.
+    QVERIFY(wizard.go(0));
+    Q_EMIT pages[0].standingWanted();
+    QCOMPARE(wizard.current(), std::size_t{2});
     // While it is measured again, what it came to before is used.
     pages[1].state = StepState::busy;
     QVERIFY(wizard.isLocked(2));

@@ -4,6 +4,7 @@
 
 #include <QElapsedTimer>
 #include <QLabel>
+#include <QSettings>
 #include <QSignalSpy>
 #include <QtTest>
 
@@ -19,6 +20,7 @@
 #include "wizard/acquire/outlook_view.h"
 #include "wizard/acquire/retrying_observer.h"
 #include "wizard/devices/device_selector.h"
+#include "wizard/venue/recent_venues.h"
 
 using namespace relucent;
 using namespace relucent::calibration;
@@ -269,6 +271,12 @@ class TestAcquirePage : public QObject {
     QVERIFY2(page.stoppedAt() > 1, qPrintable(QString::number(page.stoppedAt())));
     QCOMPARE(page.status().state, StepState::coarse);
     QVERIFY(page.status().result.contains(QString::number(page.stoppedAt())));
+    QTemporaryDir folder;
+    QSettings file(folder.filePath("settings.ini"), QSettings::IniFormat);
+    RecentVenues recent(file);
+    recent.add(QString::fromStdString(session_->path().string()), QDateTime::currentDateTime());
+    const QString stopped = recent.list().front().state;
+    QVERIFY2(stopped.contains(QString::number(page.stoppedAt())), qPrintable(stopped));
     QVERIFY(!page.findings().isEmpty());
     const std::optional<transport::ExpectedQuality> quality = page.expectedQuality();
     QVERIFY(quality && quality->whole >= quality->now && quality->photographs > 0 && quality->seconds > 0.0);
@@ -300,6 +308,11 @@ class TestAcquirePage : public QObject {
     QVERIFY2(interrupted->more.contains(QString::number(page.photographsOfNew())),
              qPrintable(interrupted->more));
     QCOMPARE(page.status().state, StepState::coarse);
+    // At the start too: still stopped, with what was photographed since.
+    const QString goingOn = recent.list().front().state;
+    QVERIFY2(goingOn != stopped && goingOn.contains(QString::number(page.stoppedAt())) &&
+                 goingOn.contains(QString::number(page.photographsOfNew())),
+             qPrintable(goingOn));
     QVERIFY(interrupted->command && interrupted->command->isEnabled());
     interrupted->command->trigger();
     QVERIFY(page.isMeasuring());

@@ -322,7 +322,7 @@
     </message>
     <message>
         <source>Stopped at %1 px; newer patterns: %2</source>
-        <translation>Fermata a %1 px; motivi più recenti: %2</translation>
+        <translation>Fermata a %1 px; pattern più recenti: %2</translation>
     </message>
 </context>
 <context>

@@ -4242,6 +4242,10 @@
         <source>Photographed again</source>
         <translation>أُعيد التصوير</translation>
     </message>
+    <message>
+        <source>dark: lens covered for a moment?</source>
+        <translation>مظلمة: هل غُطيت العدسة للحظة؟</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>

@@ -4154,6 +4154,10 @@
         <source>Photographed again</source>
         <translation>Erneut fotografiert</translation>
     </message>
+    <message>
+        <source>dark: lens covered for a moment?</source>
+        <translation>dunkel: Objektiv kurz verdeckt?</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>

@@ -4154,6 +4154,10 @@
         <source>Photographed again</source>
         <translation>Fotografiado de nuevo</translation>
     </message>
+    <message>
+        <source>dark: lens covered for a moment?</source>
+        <translation>oscura: ¿objetivo tapado un momento?</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>

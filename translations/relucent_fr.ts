@@ -4154,6 +4154,10 @@
         <source>Photographed again</source>
         <translation>Rephotographié</translation>
     </message>
+    <message>
+        <source>dark: lens covered for a moment?</source>
+        <translation>sombre : objectif masqué un instant ?</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>

@@ -4154,6 +4154,10 @@
         <source>Photographed again</source>
         <translation>Fotografato di nuovo</translation>
     </message>
+    <message>
+        <source>dark: lens covered for a moment?</source>
+        <translation>scura: obiettivo coperto per un istante?</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>

@@ -4132,6 +4132,10 @@
         <source>Photographed again</source>
         <translation>撮り直しました</translation>
     </message>
+    <message>
+        <source>dark: lens covered for a moment?</source>
+        <translation>暗い：レンズが一時覆われた？</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>

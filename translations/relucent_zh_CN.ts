@@ -4132,6 +4132,10 @@
         <source>Photographed again</source>
         <translation>已重新拍摄</translation>
     </message>
+    <message>
+        <source>dark: lens covered for a moment?</source>
+        <translation>过暗：镜头曾被短暂遮挡？</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ActionBar</name>

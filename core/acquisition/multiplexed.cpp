@@ -130,7 +130,7 @@ std::optional<sentinels::Interruption> Measurement::photographAhead(int level, i
 /// One photograph, which the rows do not know yet.
 std::optional<sentinels::Interruption> Measurement::photograph(Taken what, std::vector<Photographed>& to,
                                                                Progress& part) {
-  auto seen = context_.watch.lightAt(patternOf(what), {cycle_[rows_.stored() % cycle_.size()]}, part);
+  auto seen = context_.watch.lightOfRandomAt(patternOf(what), {cycle_[rows_.stored() % cycle_.size()]}, part);
   if (!seen) return seen.interruption();
   what.shot = context_.watch.shots();
   to.push_back({what, rows_.store(*seen)});

@@ -13,7 +13,7 @@ sentinels::Interruptible<Verification> TestPhotographs::compared(const transport
           const std::vector<photography::Demand>& demands) -> sentinels::Interruptible<hdr::LampLight> {
     const std::size_t number = next++;
     if (number == light_.size()) {
-      auto seen = context_.watch.light(pattern, demands, progress);
+      auto seen = context_.watch.lightOfRandom(pattern, demands, progress);
       if (!seen) return seen.interruption();
       patterns_.push_back(pattern);
       light_.push_back(*std::move(seen));

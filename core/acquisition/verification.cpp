@@ -192,7 +192,7 @@ sentinels::Interruptible<Verification> verify(const transport::TransportMatrix& 
                                               const TreeContext& context, const VerificationTask& task,
                                               Progress& progress) {
   auto light = [&](const ProjectorStack& pattern, const std::vector<photography::Demand>& demands) {
-    return context.watch.light(pattern, demands, progress);
+    return context.watch.lightOfRandom(pattern, demands, progress);
   };
   return verify({transport, context.watch.black().radiance, context.scheme.tolerable}, light, task, progress);
 }

@@ -23,7 +23,8 @@ constexpr EnumName<AlarmKind> alarmNames[]{{AlarmKind::flicker, "flicker"},
                                            {AlarmKind::projectorAsleep, "projector_asleep"}};
 constexpr EnumName<RetakeReason> retakeNames[]{{RetakeReason::alarm, "alarm"},
                                                {RetakeReason::overexposed, "overexposed"},
-                                               {RetakeReason::contradiction, "contradiction"}};
+                                               {RetakeReason::contradiction, "contradiction"},
+                                               {RetakeReason::dark, "dark"}};
 constexpr EnumNames<AlarmKind> namesOf(AlarmKind) {
   return {"alarm", alarmNames};
 }

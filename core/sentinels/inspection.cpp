@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t referenceKey = 0x7265666572ULL;
 
 // Beyond what drift does between two checks; more of them in observer.h.
-constexpr double darkShare = 0.2;     // of the light expected: less is no lamp's drift
+constexpr std::size_t mostCompared = 60000;  // camera pixels whose sum tells whether a pattern is dark
 constexpr double localLimit = 0.25;   // of a pixel's own and the typical light: something is in the way
 constexpr double localShare = 0.003;  // of the camera pixels
 constexpr double sigmas = 6.0;
@@ -346,6 +346,38 @@ Reading readingOf(const Check& now, const Baseline& baseline) {
           std::max(reading.view, std::sqrt(std::max(0.0, views.apart - views.noise) / views.whole));
   }
   return reading;
+}
+
+double lightShare(const hdr::LampLight& seen, const ProjectorStack& pattern,
+                  const photography::References& references) {
+  const Rasters& projectors = references.projectors;
+  std::vector<Eigen::Vector3f> means;
+  for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
+    const auto count = static_cast<Eigen::Index>(projectors.size(projector).count());
+    means.push_back(Eigen::Map<const Eigen::Matrix3Xf>(&pattern[3 * projectors.offset(projector)], 3, count)
+                        .rowwise()
+                        .mean());
+  }
+  const Rasters& cameras = references.cameras;
+  double least = 1.0;
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const std::size_t begin = cameras.offset(camera), count = cameras.size(camera).count();
+    const std::size_t step = (count + mostCompared - 1) / mostCompared;
+    double shown = 0.0, expected = 0.0;
+    for (std::size_t row = begin; row < begin + count; row += step) {
+      if (!references.usable[row]) continue;
+      Eigen::Vector3f light = Eigen::Vector3f::Zero();
+      for (std::size_t projector = 0; projector < means.size(); ++projector)
+        light += references.root[projector][row].matrix() * means[projector];
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!seen.valid[3 * row + c]) continue;
+        shown += static_cast<double>(seen.radiance[3 * row + c]);
+        expected += static_cast<double>(light[static_cast<Eigen::Index>(c)]);
+      }
+    }
+    if (expected > 0.0) least = std::min(least, shown / expected);
+  }
+  return least;
 }
 
 std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {

@@ -53,6 +53,17 @@ std::optional<Alarm> inspectOrientation(const hdr::ProjectedLight& light, std::s
 /// Photographs of one pattern differ by that share of their light, and the light is known to be why.
 Alarm flickerAlarm(double apart);
 
+/// Light of a pattern relative to what it would be if every camera pixel saw the pattern's mean, by the
+/// floods:
+///   sum_i L_i / sum_i sum_k root_i(k) m_k,     m_k: mean of projector channel k over the pattern
+/// over valid values of some 60 000 usable pixels of a camera; the least of all cameras, at most 1. About 1
+/// for random patterns, whose blocks are many; near 0 where a lens is covered or the projector shows nothing.
+double lightShare(const hdr::LampLight& seen, const ProjectorStack& pattern,
+                  const photography::References& references);
+
+/// Less of it is dark: of two hundred random blocks, none is known to come near.
+inline constexpr double darkShare = 0.2;
+
 /// What made exposures of one pattern differ by that share of their light. A rigid movement that leaves less
 /// than half of the difference which the brightness of all does not explain: something moved. Places that
 /// differ alike, the mean square over 8x6 of them to a quarter: the light flickers. Neither: either may be,

@@ -39,6 +39,7 @@ enum class RetakeReason {
   alarm,          // and the handler said retry
   overexposed,    // in every exposure that was thought right: once more, with shorter ones
   contradiction,  // their light does not add up to what was seen before: something passed by
+  dark,  // a check just after it found nothing wrong: the lens was covered, or the picture gone, for a moment
 };
 
 struct Retake {

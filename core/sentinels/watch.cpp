@@ -16,6 +16,9 @@ namespace {
 
 // Total light of equal patterns may differ by this much from round to round, drift taken out.
 constexpr double roundsLimit = 0.01;
+// A pattern that is dark each time, though no check finds anything, is believed: few blocks of it are in
+// view.
+constexpr int mostDark = 3;
 
 ProjectorStack black(const Rasters& projectors) {
   return ProjectorStack(3 * projectors.count(), 0.0f);
@@ -236,11 +239,29 @@ Interruptible<hdr::LampLight> Watch::light(const ProjectorStack& pattern,
   return lightOf(take, progress);
 }
 
-Interruptible<hdr::LampLight> Watch::lightAt(const ProjectorStack& pattern,
-                                             const std::vector<std::size_t>& exposures,
-                                             const Progress& progress,
-                                             const photography::Meanwhile& meanwhile) {
-  return lightOf([&] { return photographer_.takeAt(pattern, exposures, progress, meanwhile); }, progress);
+Interruptible<hdr::LampLight> Watch::unlessDark(const ProjectorStack& pattern, const Take& take,
+                                                const Progress& progress) {
+  for (int again = 0;; ++again) {
+    Interruptible<hdr::LampLight> seen = take();
+    if (!seen || again == mostDark || lightShare(*seen, pattern, references_) > darkShare) return seen;
+    const int shot = shots() - 1;
+    const bool isSeenNow = isNew();
+    if (auto interrupted = check(progress)) return *interrupted;
+    if (isSeenNow) supervision_.observer.takenAgain({shot, 1, RetakeReason::dark});
+  }
+}
+
+Interruptible<hdr::LampLight> Watch::lightOfRandom(const ProjectorStack& pattern,
+                                                   const std::vector<photography::Demand>& demands,
+                                                   const Progress& progress) {
+  return unlessDark(pattern, [&] { return light(pattern, demands, progress); }, progress);
+}
+
+Interruptible<hdr::LampLight> Watch::lightOfRandomAt(const ProjectorStack& pattern,
+                                                     const std::vector<std::size_t>& exposures,
+                                                     const Progress& progress) {
+  const Photograph photograph = [&] { return photographer_.takeAt(pattern, exposures, progress); };
+  return unlessDark(pattern, [&] { return lightOf(photograph, progress); }, progress);
 }
 
 Interruptible<hdr::LampLight> Watch::lightOfAll(const ProjectorStack& pattern, const Progress& progress,

@@ -77,10 +77,17 @@ class Watch {
   Interruptible<hdr::LampLight> light(const ProjectorStack& pattern,
                                       const std::vector<photography::Demand>& demands,
                                       const Progress& progress, const photography::Meanwhile& meanwhile = {});
+  /// The same of a random pattern, about half of which shines wherever one looks. Where next to nothing is
+  /// seen of it, see lightShare(), a check tells at once what lasts; if it finds nothing, the pattern is
+  /// photographed again. A check every `checkInterval` shots would not see a lens that was covered for a
+  /// moment between two.
+  Interruptible<hdr::LampLight> lightOfRandom(const ProjectorStack& pattern,
+                                              const std::vector<photography::Demand>& demands,
+                                              const Progress& progress);
   /// The same at given exposures, see Photographer::takeAt.
-  Interruptible<hdr::LampLight> lightAt(const ProjectorStack& pattern,
-                                        const std::vector<std::size_t>& exposures, const Progress& progress,
-                                        const photography::Meanwhile& meanwhile = {});
+  Interruptible<hdr::LampLight> lightOfRandomAt(const ProjectorStack& pattern,
+                                                const std::vector<std::size_t>& exposures,
+                                                const Progress& progress);
   Interruptible<hdr::LampLight> lightOfAll(const ProjectorStack& pattern, const Progress& progress,
                                            const photography::Meanwhile& meanwhile = {});
 
@@ -101,6 +108,9 @@ class Watch {
   /// given up.
   Interruptible<hdr::HdrFrame> photographed(const Photograph& photograph);
   Interruptible<hdr::LampLight> lightOf(const Photograph& photograph, const Progress& progress);
+  using Take = std::function<Interruptible<hdr::LampLight>()>;
+  Interruptible<hdr::LampLight> unlessDark(const ProjectorStack& pattern, const Take& take,
+                                           const Progress& progress);
   Interruptible<Check> photographCheck(const Progress& progress);
   /// `check`: the first one.
   std::optional<Interruption> inspectProjectors(const Check& check, const Progress& progress);

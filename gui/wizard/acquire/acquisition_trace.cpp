@@ -58,6 +58,8 @@ QString reasonOf(const sentinels::Retake& retake) {
       return AcquisitionTrace::tr("too bright, shorter exposure");
     case sentinels::RetakeReason::contradiction:
       return AcquisitionTrace::tr("does not fit what was seen before");
+    case sentinels::RetakeReason::dark:
+      return AcquisitionTrace::tr("dark: lens covered for a moment?");
   }
   return {};
 }

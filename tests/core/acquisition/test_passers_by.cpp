@@ -55,6 +55,59 @@ class TestPassersBy : public QObject {
     QVERIFY(a.verificationError < 1.1 * sound.verificationError);
   }
 
+  void aDarkPhotographIsLookedIntoAtOnce_data() {
+    QTest::addColumn<int>("first");
+    QTest::addColumn<int>("last");
+    QTest::addColumn<FaultKind>("kind");
+    const auto row = [](const char* name, int first, int last, FaultKind kind = FaultKind::coveredLens) {
+      QTest::newRow(name) << first << last << kind;
+    };
+    row("covered for one photograph of the first level", 20, 20);
+    row("covered for twelve photographs of the first level", 20, 31);
+    row("covered for one photograph of fine blocks", 70, 70);
+    row("covered for thirty photographs", 60, 89);
+    row("covered for one test pattern", -1, -1);
+    row("no picture for one photograph", 45, 45, FaultKind::asleepProjector);
+    row("no picture for ten photographs", 45, 54, FaultKind::asleepProjector);
+  }
+  /// Law: what was dark for a moment leaves no trace; whoever measures is asked only if it lasts until the
+  /// look that follows.
+  void aDarkPhotographIsLookedIntoAtOnce() {
+    QFETCH(int, first);
+    QFETCH(int, last);
+    QFETCH(FaultKind, kind);
+    const Acquisition& sound = venue_.sound();
+    if (first < 0) first = last = sound.patterns - 4;  // before the last look's two
+    DeviceFault dark = fault(kind, first);
+    dark.last = last;
+    venue_.faults->faults = {dark};
+    std::vector<AlarmKind> asked;
+    NoShotLog log;
+    Listening observer;
+    const Acquisition a = venue_.run(
+        [&](const Alarm& alarm) {
+          asked.push_back(alarm.kind);
+          venue_.faults->faults.clear();
+          return Answer::retry;
+        },
+        log, observer);
+    const bool lasts = last > first;
+    QCOMPARE(asked.size(), lasts ? std::size_t{1} : std::size_t{0});
+    if (lasts)
+      QCOMPARE(asked.front(),
+               kind == FaultKind::coveredLens ? AlarmKind::coveredLens : AlarmKind::projectorAsleep);
+    std::vector<Retake> again;
+    std::ranges::copy_if(observer.retakes, std::back_inserter(again),
+                         [](const Retake& retake) { return retake.reason == RetakeReason::dark; });
+    QCOMPARE(again.size(), lasts ? std::size_t{0} : std::size_t{1});
+    if (!lasts) QCOMPARE(again.front().shot, first);
+    qInfo("verification %.4f for %.4f, %zu flagged for %zu", a.verificationError, sound.verificationError,
+          flaggedIn(a), flaggedIn(sound));
+    QVERIFY(flaggedIn(a) <= flaggedIn(sound) + 2);
+    QVERIFY(a.verificationError < 1.1 * sound.verificationError);
+    if (lasts) QVERIFY(a.transport == sound.transport);
+  }
+
   /// T follows from photographs that a check has confirmed: what disturbed the later ones leaves no trace.
   void whatIsKeptAfterAnAlarmHasBeenConfirmed_data() {
     QTest::addColumn<int>("shot");

@@ -6699,7 +6699,7 @@ projector %2</source>
     </message>
     <message>
         <source>Covered by %1</source>
-        <translation>%1 に隠れています</translation>
+        <translation>%1が表示中</translation>
     </message>
     <message>
         <source>The projector shows the light of another step: %1</source>

@@ -412,7 +412,8 @@ std::optional<double> AcquirePage::verificationError() const {
 
 std::optional<transport::ExpectedQuality> AcquirePage::expectedQuality() const {
   const auto& measured = session_.figures<calibration::Stage::acquisition>();
-  return measured ? measured->expected : std::nullopt;
+  if (!measured || (session_.leftOut() && !session_.isOverexposed())) return std::nullopt;
+  return measured->expected;
 }
 
 QStringList AcquirePage::findings() const {

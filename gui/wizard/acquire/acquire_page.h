@@ -119,7 +119,8 @@ class AcquirePage : public DevicePage {
   }
   /// Error of patterns that were only predicted, relative; none before it was measured.
   std::optional<double> verificationError() const;
-  /// How well pictures are expected to be shown with what was measured; none if nobody worked it out.
+  /// How well pictures are expected to be shown with what was measured; none if nobody worked it out, or if
+  /// test patterns have shown since that much of it is wrong.
   std::optional<transport::ExpectedQuality> expectedQuality() const;
   /// Side of the finest blocks if it was stopped and kept, projector pixels; 0: nothing is missing.
   int stoppedAt() const { return session_.stoppedAt(); }

@@ -239,6 +239,8 @@ class TestWhileMeasuring : public QObject {
       QCOMPARE(banner->command == nullptr, pages[i] == &acquire);
     }
     QVERIFY2(acquire.status().result.contains(step), qPrintable(acquire.status().result));
+    // Nothing is promised of what test patterns contradict.
+    QCOMPARE(acquire.expectedQuality().has_value(), leftOut == overexposed);
     QCOMPARE(acquire.primary()->text(), QString("Measure again"));
     QCOMPARE(acquire.secondary().size(), std::size_t{1});
     QVERIFY(wizard.go(1));

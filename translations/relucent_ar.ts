@@ -6982,10 +6982,6 @@ projector %2</source>
         <translation>الخرج مغلق. لا يُعرض شيء من هنا.</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
-        <translation>لم يتحرك شيء: جزء من الصورة خارج متناول جهاز العرض، أغمق من أسوده هناك أو أسطع من أبيضه. تفيد صورة أخرى أو موضع آخر لها.</translation>
-    </message>
-    <message>
         <source>A photograph is being taken.</source>
         <translation>تُلتقط صورة.</translation>
     </message>
@@ -7092,6 +7088,14 @@ projector %2</source>
     <message>
         <source>still picture, perfected by photographs</source>
         <translation>صورة ثابتة، حُسِّنت بالصور</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, in a shadow, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>لم يتحرك شيء: جزء من الصورة خارج متناول جهاز العرض، في ظلّ، أو أغمق من أسوده هناك أو أسطع من أبيضه. تفيد صورة أخرى أو موضع آخر لها.</translation>
+    </message>
+    <message>
+        <source>Errors are plain to see</source>
+        <translation>الأخطاء واضحة للعين</translation>
     </message>
 </context>
 <context>

@@ -6838,10 +6838,6 @@ Projektor %2</translation>
         <translation>Die Ausgabe ist geschlossen. Von hier wird nichts projiziert.</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
-        <translation>Nichts hat sich bewegt: Ein Teil des Bildes liegt außerhalb der Reichweite des Projektors, dunkler als sein Schwarz oder heller als sein Weiß an dieser Stelle. Ein anderes Bild oder ein anderer Platz dafür hilft.</translation>
-    </message>
-    <message>
         <source>A photograph is being taken.</source>
         <translation>Ein Foto wird aufgenommen.</translation>
     </message>
@@ -6948,6 +6944,14 @@ Projektor %2</translation>
     <message>
         <source>still picture, perfected by photographs</source>
         <translation>Standbild, durch Fotos perfektioniert</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, in a shadow, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>Nichts hat sich bewegt: Ein Teil des Bildes liegt außerhalb der Reichweite des Projektors, in einem Schatten, dunkler als sein Schwarz oder heller als sein Weiß an dieser Stelle. Ein anderes Bild oder ein anderer Platz dafür hilft.</translation>
+    </message>
+    <message>
+        <source>Errors are plain to see</source>
+        <translation>Fehler sind deutlich zu sehen</translation>
     </message>
 </context>
 <context>

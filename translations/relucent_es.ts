@@ -6838,10 +6838,6 @@ proyector %2</translation>
         <translation>La salida está cerrada. Desde aquí no se proyecta nada.</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
-        <translation>Nada se ha movido: parte de la imagen está fuera del alcance del proyector, más oscura que su negro o más clara que su blanco en ese lugar. Ayuda otra imagen u otro lugar para ella.</translation>
-    </message>
-    <message>
         <source>A photograph is being taken.</source>
         <translation>Se está tomando una fotografía.</translation>
     </message>
@@ -6948,6 +6944,14 @@ proyector %2</translation>
     <message>
         <source>still picture, perfected by photographs</source>
         <translation>imagen fija, perfeccionada con fotografías</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, in a shadow, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>Nada se ha movido: parte de la imagen está fuera del alcance del proyector, en una sombra, más oscura que su negro o más clara que su blanco en ese lugar. Ayuda otra imagen u otro lugar para ella.</translation>
+    </message>
+    <message>
+        <source>Errors are plain to see</source>
+        <translation>Los errores se ven claramente</translation>
     </message>
 </context>
 <context>

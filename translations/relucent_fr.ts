@@ -6838,10 +6838,6 @@ projecteur %2</translation>
         <translation>La sortie est fermée. Rien n’est projeté d’ici.</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
-        <translation>Rien n’a bougé&#x202f;: une partie de l’image est hors de portée du projecteur, plus sombre que son noir ou plus claire que son blanc à cet endroit. Une autre image, ou une autre place, aide.</translation>
-    </message>
-    <message>
         <source>A photograph is being taken.</source>
         <translation>Une photo est en cours.</translation>
     </message>
@@ -6948,6 +6944,14 @@ projecteur %2</translation>
     <message>
         <source>still picture, perfected by photographs</source>
         <translation>image fixe, perfectionnée par des photos</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, in a shadow, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>Rien n’a bougé : une partie de l’image est hors de portée du projecteur, dans une ombre, plus sombre que son noir ou plus claire que son blanc à cet endroit. Une autre image, ou une autre place, aide.</translation>
+    </message>
+    <message>
+        <source>Errors are plain to see</source>
+        <translation>Les écarts se voient nettement</translation>
     </message>
 </context>
 <context>

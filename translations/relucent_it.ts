@@ -6838,10 +6838,6 @@ proiettore %2</translation>
         <translation>L’uscita è chiusa. Da qui non si proietta nulla.</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
-        <translation>Nulla si è mosso: parte dell’immagine è fuori dalla portata del proiettore, più scura del suo nero o più chiara del suo bianco in quel punto. Aiuta un’altra immagine o un’altra posizione.</translation>
-    </message>
-    <message>
         <source>A photograph is being taken.</source>
         <translation>Si sta scattando una fotografia.</translation>
     </message>
@@ -6948,6 +6944,14 @@ proiettore %2</translation>
     <message>
         <source>still picture, perfected by photographs</source>
         <translation>immagine fissa, perfezionata con fotografie</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, in a shadow, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>Nulla si è mosso: parte dell’immagine è fuori dalla portata del proiettore, in un’ombra, più scura del suo nero o più chiara del suo bianco in quel punto. Aiuta un’altra immagine o un’altra posizione.</translation>
+    </message>
+    <message>
+        <source>Errors are plain to see</source>
+        <translation>Gli errori si vedono chiaramente</translation>
     </message>
 </context>
 <context>

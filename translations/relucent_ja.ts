@@ -6802,10 +6802,6 @@ projector %2</source>
         <translation>出力は閉じています。ここからは何も投影していません。</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
-        <translation>何も動いていません。画像の一部がプロジェクターの届く範囲外です（その場所の黒より暗いか、白より明るい）。別の画像か別の位置にすると改善します。</translation>
-    </message>
-    <message>
         <source>A photograph is being taken.</source>
         <translation>写真を撮影しています。</translation>
     </message>
@@ -6912,6 +6908,14 @@ projector %2</source>
     <message>
         <source>still picture, perfected by photographs</source>
         <translation>静止画、写真により仕上げ済み</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, in a shadow, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>何も動いていません。画像の一部がプロジェクターの届く範囲外です（影の中、その場所の黒より暗い、または白より明るい）。別の画像か別の位置にすると改善します。</translation>
+    </message>
+    <message>
+        <source>Errors are plain to see</source>
+        <translation>誤差がはっきり見えます</translation>
     </message>
 </context>
 <context>

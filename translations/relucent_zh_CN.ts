@@ -6802,10 +6802,6 @@ projector %2</source>
         <translation>输出已关闭。此处没有投影任何内容。</translation>
     </message>
     <message>
-        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
-        <translation>没有东西移动：图片的一部分超出投影机的能力，比该处的黑更暗或比该处的白更亮。换一张图片或换个位置会有帮助。</translation>
-    </message>
-    <message>
         <source>A photograph is being taken.</source>
         <translation>正在拍照。</translation>
     </message>
@@ -6912,6 +6908,14 @@ projector %2</source>
     <message>
         <source>still picture, perfected by photographs</source>
         <translation>静态图像，已由照片完善</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, in a shadow, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
+        <translation>没有东西移动：图片的一部分超出投影机的能力，处在阴影中、比该处的黑更暗或比该处的白更亮。换一张图片或换个位置会有帮助。</translation>
+    </message>
+    <message>
+        <source>Errors are plain to see</source>
+        <translation>误差明显可见</translation>
     </message>
 </context>
 <context>

@@ -84,12 +84,18 @@ QString viewsLine(const Proof& proof) {
   return views.join('\n');
 }
 
-/// Why errors are plain to see though all is as predicted, and what helps.
-QString reasonOf(const OutputPage& page, const pipeline::ProvedView& figures) {
-  constexpr double enoughLight = 0.95, enoughReach = 0.9;
-  // Of a venue that stands still a prediction of so large errors is not off by more.
+/// Of a venue that stands still a prediction of large errors is not off by as much.
+bool isBeyondPrediction(const pipeline::ProvedView& figures) {
   constexpr double mostOff = 1.2;
-  if (figures.after.measured.deltaE > mostOff * figures.after.predicted.deltaE)
+  return figures.after.measured.deltaE > mostOff * figures.after.predicted.deltaE;
+}
+
+/// Why errors are plain to see though nothing contradicts the prediction, and what helps.
+QString reasonOf(const OutputPage& page, const pipeline::ProvedView& figures) {
+  constexpr double enoughLight = 0.95;
+  // What stays dark and should be bright, or the other way round, is off by about that much, out of 100.
+  constexpr double offOutOfReach = 40.0;
+  if (isBeyondPrediction(figures))
     return OutputPage::tr(
         "They are larger than predicted. A check for drift tells whether something has moved.");
   if (const double kept = page.lightKept(); kept < enoughLight)
@@ -97,10 +103,11 @@ QString reasonOf(const OutputPage& page, const pipeline::ProvedView& figures) {
                "Nothing has moved: of the light only %1 is kept at Threshold, so that bounces are "
                "missing, in the prediction too. Keep more of it.")
         .arg(percentText(kept));
-  if (figures.reachable < enoughReach)
+  if (2.0 * offOutOfReach * (1.0 - figures.reachable) > figures.after.measured.deltaE)
     return OutputPage::tr(
-        "Nothing has moved: part of the picture is out of the projector's reach, darker than its black or "
-        "brighter than its white there. Another picture, or another place for it, helps.");
+        "Nothing has moved: part of the picture is out of the projector's reach, in a shadow, darker than "
+        "its "
+        "black or brighter than its white there. Another picture, or another place for it, helps.");
   return OutputPage::tr(
       "Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.");
 }
@@ -151,7 +158,9 @@ void showProof(Remark& remark, const OutputPage& page) {
   if (proof->isAsPredicted() && isDoubted)
     remark.show(Remark::Kind::watch, OutputPage::tr("The surface looked as predicted then"), meaning);
   else if (proof->isAsPredicted() && pipeline::isPlainToSee(proof->figures))
-    remark.show(Remark::Kind::watch, OutputPage::tr("As predicted, but errors are plain to see"),
+    remark.show(Remark::Kind::watch,
+                isBeyondPrediction(figures) ? OutputPage::tr("Errors are plain to see")
+                                            : OutputPage::tr("As predicted, but errors are plain to see"),
                 meaning + '\n' + reasonOf(page, figures));
   else if (proof->isAsPredicted())
     remark.show(Remark::Kind::good, OutputPage::tr("The surface looks as predicted"), meaning);

@@ -162,9 +162,12 @@ QString AcquirePage::hint() const {
   if (isReading())
     return tr("The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.",
               nullptr, kept_);
-  if (const auto why = trace_.takesAgainFor(); isMeasuring() && why)
-    return tr("%1: what was photographed since the check before is taken again.")
-        .arg(AcquisitionTrace::headingOf(*why));
+  // It may have gone.
+  if (const auto why = trace_.takesAgainFor(); isMeasuring() && why) {
+    QString reason = AcquisitionTrace::reasonOf(*why);
+    reason[0] = reason[0].toUpper();
+    return tr("%1: what was photographed since the check before is taken again.").arg(reason);
+  }
   if (isMeasuring())
     return status().hasResult
                ? tr("Every photograph is saved. The earlier measurement is used until the new one is ready.")

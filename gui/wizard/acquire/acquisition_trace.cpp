@@ -25,7 +25,32 @@ bool isRoomSteady(const sentinels::Reading& reading) {
   return !isOf(reading, {sentinels::AlarmKind::ambientChanged}) && off <= sentinels::reading_limit::roomLight;
 }
 
-QString reasonOf(sentinels::AlarmKind kind) {
+QString reasonOf(const sentinels::Retake& retake) {
+  switch (retake.reason) {
+    case sentinels::RetakeReason::alarm:
+      return AcquisitionTrace::reasonOf(retake.alarm.value_or(sentinels::AlarmKind::localChange));
+    case sentinels::RetakeReason::overexposed:
+      return AcquisitionTrace::tr("too bright, shorter exposure");
+    case sentinels::RetakeReason::contradiction:
+      return AcquisitionTrace::tr("does not fit what was seen before");
+    case sentinels::RetakeReason::dark:
+      return AcquisitionTrace::tr("dark: lens covered for a moment?");
+  }
+  return {};
+}
+
+/// People count from one.
+QString patternsOf(const sentinels::Retake& retake) {
+  auto first = static_cast<std::uint64_t>(retake.shot) + 1;
+  if (retake.patterns < 2 || retake.reason == sentinels::RetakeReason::overexposed)
+    return AcquisitionTrace::tr("No. %1").arg(countText(first));
+  return AcquisitionTrace::tr("No. %1 to %2")
+      .arg(countText(first), countText(first + static_cast<std::uint64_t>(retake.patterns) - 1));
+}
+
+}  // namespace
+
+QString AcquisitionTrace::reasonOf(sentinels::AlarmKind kind) {
   switch (kind) {
     case sentinels::AlarmKind::flicker:
       return AcquisitionTrace::tr("the light flickered");
@@ -49,31 +74,6 @@ QString reasonOf(sentinels::AlarmKind kind) {
   }
   return {};
 }
-
-QString reasonOf(const sentinels::Retake& retake) {
-  switch (retake.reason) {
-    case sentinels::RetakeReason::alarm:
-      return reasonOf(retake.alarm.value_or(sentinels::AlarmKind::localChange));
-    case sentinels::RetakeReason::overexposed:
-      return AcquisitionTrace::tr("too bright, shorter exposure");
-    case sentinels::RetakeReason::contradiction:
-      return AcquisitionTrace::tr("does not fit what was seen before");
-    case sentinels::RetakeReason::dark:
-      return AcquisitionTrace::tr("dark: lens covered for a moment?");
-  }
-  return {};
-}
-
-/// People count from one.
-QString patternsOf(const sentinels::Retake& retake) {
-  auto first = static_cast<std::uint64_t>(retake.shot) + 1;
-  if (retake.patterns < 2 || retake.reason == sentinels::RetakeReason::overexposed)
-    return AcquisitionTrace::tr("No. %1").arg(countText(first));
-  return AcquisitionTrace::tr("No. %1 to %2")
-      .arg(countText(first), countText(first + static_cast<std::uint64_t>(retake.patterns) - 1));
-}
-
-}  // namespace
 
 QString AcquisitionTrace::headingOf(sentinels::AlarmKind kind) {
   switch (kind) {

@@ -48,6 +48,8 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
 
   /// What such an alarm is called, a title.
   static QString headingOf(sentinels::AlarmKind kind);
+  /// What had happened, within a sentence.
+  static QString reasonOf(sentinels::AlarmKind kind);
 
   /// What was told is forgotten, and nothing is listened to until begin().
   void clear();

@@ -24,6 +24,12 @@ class TestPassersBy : public QObject {
     hand.first = 60;
     hand.last = 63;
     QTest::newRow("hand, four photographs") << hand;
+    hand.first = 20;
+    hand.last = 31;
+    QTest::newRow("hand, twelve photographs of the first level") << hand;
+    hand.first = 60;
+    hand.last = 75;
+    QTest::newRow("hand, sixteen photographs") << hand;
     DeviceFault flash = handOver(75);
     flash.kind = FaultKind::flash;
     flash.amount = 20.0;

@@ -20,7 +20,7 @@ namespace {
 constexpr int predictedPatterns = 8, mostFinest = 96;
 constexpr double worthMore = 0.04;
 // How often a level is looked through for photographs that were spoilt, once some were.
-constexpr int mostRounds = 4;
+constexpr int mostLooks = 4;
 // Patterns that have to wait for a check before one is made only to confirm them.
 constexpr int fewUnconfirmed = 28;
 
@@ -233,7 +233,7 @@ void Measurement::tellDraft(double error) const {
 /// the worst of them.
 std::optional<sentinels::Interruption> Measurement::settle(std::vector<std::size_t> spoilt, Progress& part) {
   if (spoilt.empty()) return std::nullopt;
-  for (int round = 0; !spoilt.empty() && round < mostRounds; ++round) {
+  for (int round = 0; !spoilt.empty() && round < mostLooks; ++round) {
     std::map<int, std::vector<Taken>, std::greater<>> wanted;  // by level
     for (std::size_t number : spoilt) {
       Taken& taken = taken_[number];

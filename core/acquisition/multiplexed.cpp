@@ -19,8 +19,6 @@ namespace {
 // that a prediction has to lose for more of them to be worth while.
 constexpr int predictedPatterns = 8, mostFinest = 96;
 constexpr double worthMore = 0.04;
-// How often a level is looked through for photographs that were spoilt, once some were.
-constexpr int mostLooks = 4;
 // Patterns that have to wait for a check before one is made only to confirm them.
 constexpr int fewUnconfirmed = 28;
 
@@ -89,7 +87,7 @@ class Measurement {
                                               std::vector<Photographed> photographed, Progress& part);
   std::optional<sentinels::Interruption> solve(int level, int& next, Progress& part);
   std::optional<sentinels::Interruption> refine(Progress& part);
-  std::optional<sentinels::Interruption> settle(std::vector<std::size_t> spoilt, Progress& part);
+  std::optional<sentinels::Interruption> settle(const std::vector<std::size_t>& spoilt, Progress& part);
   void told(int level, int patterns, Progress& part) const;
   void tellDraft(double error = 0.0) const;
   ProjectorStack patternOf(const Taken& what) const {
@@ -229,22 +227,19 @@ void Measurement::tellDraft(double error) const {
   context_.observer.drafted(draft);
 }
 
-/// Photographs again what was spoilt, until nothing more is found: what spoilt many photographs hides behind
-/// the worst of them.
-std::optional<sentinels::Interruption> Measurement::settle(std::vector<std::size_t> spoilt, Progress& part) {
+/// Photographs again what was spoilt.
+std::optional<sentinels::Interruption> Measurement::settle(const std::vector<std::size_t>& spoilt,
+                                                           Progress& part) {
   if (spoilt.empty()) return std::nullopt;
-  for (int round = 0; !spoilt.empty() && round < mostLooks; ++round) {
-    std::map<int, std::vector<Taken>, std::greater<>> wanted;  // by level
-    for (std::size_t number : spoilt) {
-      Taken& taken = taken_[number];
-      if (std::exchange(taken.again, true)) continue;
-      context_.watch.contradicted(taken.shot - 1, 1);
-      wanted[taken.level].push_back(taken);
-    }
-    for (const auto& [level, patterns] : wanted)
-      if (auto interrupted = take(level, patterns, {}, part)) return interrupted;
-    spoilt = rows_.judge();
+  std::map<int, std::vector<Taken>, std::greater<>> wanted;  // by level
+  for (std::size_t number : spoilt) {
+    Taken& taken = taken_[number];
+    if (std::exchange(taken.again, true)) continue;
+    context_.watch.contradicted(taken.shot - 1, 1);
+    wanted[taken.level].push_back(taken);
   }
+  for (const auto& [level, patterns] : wanted)
+    if (auto interrupted = take(level, patterns, {}, part)) return interrupted;
   rows_.solve();
   return std::nullopt;
 }

@@ -55,8 +55,10 @@ class TestPassersBy : public QObject {
       else
         ++others;
     }
-    QCOMPARE(static_cast<int>(again.size()), fault.last - fault.first + 1);
-    QVERIFY2(others <= 2, qPrintable(QString::number(others)));
+    const int spoilt = fault.last - fault.first + 1;
+    QCOMPARE(static_cast<int>(again.size()), spoilt);
+    // Beside many that were spoilt sound ones contradict, too.
+    QVERIFY2(others <= std::max(2, spoilt / 2), qPrintable(QString::number(others)));
     QVERIFY(flaggedIn(a) <= flaggedIn(sound) + 2);
     QVERIFY(a.verificationError < 1.1 * sound.verificationError);
   }

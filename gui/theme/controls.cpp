@@ -6,6 +6,7 @@
 #include <QEvent>
 #include <QGuiApplication>
 #include <QPainter>
+#include <QResizeEvent>
 #include <QStyle>
 #include <algorithm>
 
@@ -175,10 +176,18 @@ Remark::Remark(QWidget* parent)
   texts->setSpacing(0);
   texts->addWidget(sentence_);
   texts->addWidget(meaning_);
+  texts->addStretch(1);
   row->addLayout(texts, 1);
 }
 
+void Remark::resizeEvent(QResizeEvent* event) {
+  if (event->size().width() != event->oldSize().width()) setMinimumHeight(0);
+  QWidget::resizeEvent(event);
+}
+
 void Remark::show(Kind kind, const QString& sentence, const QString& meaning) {
+  // Not by its height, which is anything before it is laid out.
+  if (keepsRoom_ && isVisible()) setMinimumHeight(std::max(minimumHeight(), heightForWidth(width())));
   switch (kind) {
     case Kind::good:
       icon_->setIcon(Icon::tick, goodColour);

@@ -108,10 +108,17 @@ class Remark : public QWidget {
   enum class Kind { good, watch, warning, failed };
   explicit Remark(QWidget* parent = nullptr);
   void show(Kind kind, const QString& sentence, const QString& meaning);
+  /// From now on what is below keeps its place when less is said: there is as much room as was taken at this
+  /// width.
+  void keepRoom() { keepsRoom_ = true; }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   IconLabel* icon_;
   QLabel *sentence_, *meaning_;
+  bool keepsRoom_ = false;
 };
 
 /// A coloured box with a sentence and its consequence.

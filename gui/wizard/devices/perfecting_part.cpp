@@ -120,6 +120,7 @@ QWidget* perfectingPart(DevicePage& page, Perfecting& perfecting, const Perfecti
   column->addWidget(labelOf(Perfecting::tr("Perfect a picture"), "section"));
   auto* state = new Remark;
   state->setObjectName("perfect-remark");
+  state->keepRoom();  // from picture to picture of a list that plays
   column->addWidget(state);
   auto* perfect = new ActionButton(Icon::camera, Perfecting::tr("Perfect this picture"));
   perfect->setObjectName("perfect");
@@ -135,8 +136,6 @@ QWidget* perfectingPart(DevicePage& page, Perfecting& perfecting, const Perfecti
   QObject::connect(stop, &QPushButton::clicked, &perfecting, &Perfecting::stopAndKeep);
   QObject::connect(forget, &QPushButton::clicked, &perfecting, &Perfecting::forget);
   auto refresh = [=, &perfecting] {
-    // From picture to picture of a list that plays, what is below keeps its place once there was most to say.
-    state->setMinimumHeight(std::max(state->minimumHeight(), state->height()));
     showState(*state, perfecting);
     perfect->setVisible(!perfecting.isRunning());
     perfect->setText(perfecting.known() ? Perfecting::tr("Perfect it again")

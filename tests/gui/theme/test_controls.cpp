@@ -6,9 +6,11 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QLineEdit>
 #include <QSignalSpy>
 #include <QTextDocumentFragment>
+#include <QVBoxLayout>
 #include <QtTest>
 
 #include "theme/action_button.h"
@@ -236,6 +238,35 @@ class TestControls : public QObject {
     Segmented segments({"Corrected", "Original"});
     const int row = segments.sizeHint().height();
     QVERIFY(segments.heightForWidth(segments.sizeHint().width() - 1) > 2 * row);
+  }
+
+  /// Law: a remark that keeps its room is as high as what it said at most at this width, whatever it said and
+  /// however wide it was before it was looked at.
+  void aRemarkKeepsTheRoomOfWhatItSaid() {
+    const QString much = QString("One sentence after another. ").repeated(12), little = "Little.";
+    QWidget window;
+    auto* column = new QVBoxLayout(&window);
+    auto* remark = new Remark;
+    remark->keepRoom();
+    column->addWidget(remark);
+    auto* below = new QLabel("below");
+    column->addWidget(below);
+    column->addStretch(1);
+    remark->show(Remark::Kind::watch, "Sentence", much);
+    remark->resize(40, 900);
+    remark->show(Remark::Kind::watch, "Sentence", little);
+    window.resize(300, 700);
+    window.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&window));
+    QTRY_COMPARE(remark->height(), remark->heightForWidth(remark->width()));
+    remark->show(Remark::Kind::watch, "Sentence", much);
+    QTRY_COMPARE(remark->height(), remark->heightForWidth(remark->width()));
+    const int place = below->y();
+    remark->show(Remark::Kind::watch, "Sentence", little);
+    QCoreApplication::processEvents();
+    QCOMPARE(below->y(), place);
+    window.resize(420, 700);
+    QTRY_COMPARE(remark->height(), remark->heightForWidth(remark->width()));
   }
 };
 

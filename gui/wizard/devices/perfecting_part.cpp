@@ -148,7 +148,8 @@ QWidget* perfectingPart(DevicePage& page, Perfecting& perfecting, const Perfecti
     forget->setSizePolicy(place);
     forget->setVisible(isKnown);
   };
-  refreshOn(page, part, refresh, &DevicePage::settingsChanged, &DevicePage::resultChanged);
+  refreshOn(page, part, refresh, &DevicePage::statusChanged, &DevicePage::settingsChanged,
+            &DevicePage::resultChanged);
   QObject::connect(&perfecting, &Perfecting::changed, part, refresh);
   QObject::connect(&perfecting, &Perfecting::progressed, part, refresh);
   QObject::connect(&Theme::instance(), &Theme::changed, part, refresh);

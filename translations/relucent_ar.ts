@@ -336,6 +336,10 @@
         <source>Stopped at %1 px; newer patterns: %2</source>
         <translation>أُوقف عند ⁨%1 px⁩؛ أنماط أحدث: %2</translation>
     </message>
+    <message>
+        <source>A show plays</source>
+        <translation>عرض قيد التشغيل</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -1643,6 +1647,13 @@
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>أغلق قوائم الكاميرا، ثم أطفئها وشغّلها</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-program</name>
+    <message>
+        <source>close the other program, a camera viewer or a second Relucent perhaps</source>
+        <translation>أغلق البرنامج الآخر، ربما عارض كاميرا أو نسخة ثانية من Relucent</translation>
     </message>
 </context>
 <context>
@@ -7097,6 +7108,10 @@ projector %2</source>
         <source>Errors are plain to see</source>
         <translation>الأخطاء واضحة للعين</translation>
     </message>
+    <message>
+        <source>The frozen picture stands unseen until you show it again.</source>
+        <translation>الصورة المجمّدة قائمة دون أن تُرى حتى تُظهرها من جديد.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -8056,6 +8071,10 @@ projector %2</source>
     <message>
         <source>There are no times yet.</source>
         <translation>لا توجد أوقات بعد.</translation>
+    </message>
+    <message>
+        <source>Type a time of the day, such as %1.</source>
+        <translation>اكتب وقتًا من اليوم، مثل %1.</translation>
     </message>
 </context>
 <context>

@@ -324,6 +324,10 @@
         <source>Stopped at %1 px; newer patterns: %2</source>
         <translation>Gestoppt bei %1 px; neuere Muster: %2</translation>
     </message>
+    <message>
+        <source>A show plays</source>
+        <translation>Eine Show läuft</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -1619,6 +1623,13 @@
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>schließen Sie ihre Menüs und schalten Sie sie aus und wieder ein</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-program</name>
+    <message>
+        <source>close the other program, a camera viewer or a second Relucent perhaps</source>
+        <translation>das andere Programm schließen, vielleicht einen Kamera-Viewer oder ein zweites Relucent</translation>
     </message>
 </context>
 <context>
@@ -6953,6 +6964,10 @@ Projektor %2</translation>
         <source>Errors are plain to see</source>
         <translation>Fehler sind deutlich zu sehen</translation>
     </message>
+    <message>
+        <source>The frozen picture stands unseen until you show it again.</source>
+        <translation>Das eingefrorene Bild steht ungesehen, bis Sie es wieder zeigen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7904,6 +7919,10 @@ Projektor %2</translation>
     <message>
         <source>There are no times yet.</source>
         <translation>Es gibt noch keine Zeiten.</translation>
+    </message>
+    <message>
+        <source>Type a time of the day, such as %1.</source>
+        <translation>Eine Tageszeit eingeben, zum Beispiel %1.</translation>
     </message>
 </context>
 <context>

@@ -324,6 +324,10 @@
         <source>Stopped at %1 px; newer patterns: %2</source>
         <translation>Detenida en %1 px; patrones más nuevos: %2</translation>
     </message>
+    <message>
+        <source>A show plays</source>
+        <translation>Se reproduce un show</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -1619,6 +1623,13 @@
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>cierre sus menús, apáguela y vuelva a encenderla</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-program</name>
+    <message>
+        <source>close the other program, a camera viewer or a second Relucent perhaps</source>
+        <translation>cierre el otro programa, quizá un visor de cámara o un segundo Relucent</translation>
     </message>
 </context>
 <context>
@@ -6953,6 +6964,10 @@ proyector %2</translation>
         <source>Errors are plain to see</source>
         <translation>Los errores se ven claramente</translation>
     </message>
+    <message>
+        <source>The frozen picture stands unseen until you show it again.</source>
+        <translation>La imagen congelada sigue ahí sin verse hasta que la muestre de nuevo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7904,6 +7919,10 @@ proyector %2</translation>
     <message>
         <source>There are no times yet.</source>
         <translation>Aún no hay horas.</translation>
+    </message>
+    <message>
+        <source>Type a time of the day, such as %1.</source>
+        <translation>Escriba una hora del día, por ejemplo %1.</translation>
     </message>
 </context>
 <context>

@@ -324,6 +324,10 @@
         <source>Stopped at %1 px; newer patterns: %2</source>
         <translation>Arrêtée à %1 px ; motifs plus récents : %2</translation>
     </message>
+    <message>
+        <source>A show plays</source>
+        <translation>Une diffusion est en cours</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -1619,6 +1623,13 @@
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>fermez ses menus, éteignez-la et rallumez-la</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-program</name>
+    <message>
+        <source>close the other program, a camera viewer or a second Relucent perhaps</source>
+        <translation>fermez l’autre programme, peut-être une visionneuse de caméra ou un second Relucent</translation>
     </message>
 </context>
 <context>
@@ -6947,11 +6958,15 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Nothing has moved: part of the picture is out of the projector&apos;s reach, in a shadow, darker than its black or brighter than its white there. Another picture, or another place for it, helps.</source>
-        <translation>Rien n’a bougé : une partie de l’image est hors de portée du projecteur, dans une ombre, plus sombre que son noir ou plus claire que son blanc à cet endroit. Une autre image, ou une autre place, aide.</translation>
+        <translation>Rien n’a bougé&#x202f;: une partie de l’image est hors de portée du projecteur, dans une ombre, plus sombre que son noir ou plus claire que son blanc à cet endroit. Une autre image, ou une autre place, aide.</translation>
     </message>
     <message>
         <source>Errors are plain to see</source>
         <translation>Les écarts se voient nettement</translation>
+    </message>
+    <message>
+        <source>The frozen picture stands unseen until you show it again.</source>
+        <translation>L’image figée reste, invisible, jusqu’à ce que vous l’affichiez à nouveau.</translation>
     </message>
 </context>
 <context>
@@ -7904,6 +7919,10 @@ projecteur %2</translation>
     <message>
         <source>There are no times yet.</source>
         <translation>Il n’y a pas encore d’heures.</translation>
+    </message>
+    <message>
+        <source>Type a time of the day, such as %1.</source>
+        <translation>Saisissez une heure de la journée, par exemple %1.</translation>
     </message>
 </context>
 <context>

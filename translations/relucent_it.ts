@@ -324,6 +324,10 @@
         <source>Stopped at %1 px; newer patterns: %2</source>
         <translation>Fermata a %1 px; pattern più recenti: %2</translation>
     </message>
+    <message>
+        <source>A show plays</source>
+        <translation>È in corso uno show</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -1619,6 +1623,13 @@
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>chiuderne i menu, poi spegnerla e riaccenderla</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-program</name>
+    <message>
+        <source>close the other program, a camera viewer or a second Relucent perhaps</source>
+        <translation>chiudere l’altro programma, forse un visualizzatore della fotocamera o un secondo Relucent</translation>
     </message>
 </context>
 <context>
@@ -6953,6 +6964,10 @@ proiettore %2</translation>
         <source>Errors are plain to see</source>
         <translation>Gli errori si vedono chiaramente</translation>
     </message>
+    <message>
+        <source>The frozen picture stands unseen until you show it again.</source>
+        <translation>L’immagine bloccata resta, non vista, finché non la si mostra di nuovo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7904,6 +7919,10 @@ proiettore %2</translation>
     <message>
         <source>There are no times yet.</source>
         <translation>Non ci sono ancora orari.</translation>
+    </message>
+    <message>
+        <source>Type a time of the day, such as %1.</source>
+        <translation>Digitare un’ora del giorno, per esempio %1.</translation>
     </message>
 </context>
 <context>

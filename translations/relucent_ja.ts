@@ -321,6 +321,10 @@
         <source>Stopped at %1 px; newer patterns: %2</source>
         <translation>%1 px で停止、新しいパターン：%2</translation>
     </message>
+    <message>
+        <source>A show plays</source>
+        <translation>ショーを再生中</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -1613,6 +1617,13 @@
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>カメラのメニューを閉じ、電源を入れ直してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-program</name>
+    <message>
+        <source>close the other program, a camera viewer or a second Relucent perhaps</source>
+        <translation>ほかのプログラム（カメラビューアーや 2 つ目の Relucent など）を閉じてください</translation>
     </message>
 </context>
 <context>
@@ -6917,6 +6928,10 @@ projector %2</source>
         <source>Errors are plain to see</source>
         <translation>誤差がはっきり見えます</translation>
     </message>
+    <message>
+        <source>The frozen picture stands unseen until you show it again.</source>
+        <translation>静止した画像は、再び表示するまで見えないまま残ります。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7866,6 +7881,10 @@ projector %2</source>
     <message>
         <source>There are no times yet.</source>
         <translation>まだ時刻がありません。</translation>
+    </message>
+    <message>
+        <source>Type a time of the day, such as %1.</source>
+        <translation>時刻を入力してください（例：%1）。</translation>
     </message>
 </context>
 <context>

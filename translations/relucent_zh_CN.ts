@@ -321,6 +321,10 @@
         <source>Stopped at %1 px; newer patterns: %2</source>
         <translation>在 %1 px 处停止；更新的图案：%2</translation>
     </message>
+    <message>
+        <source>A show plays</source>
+        <translation>正在播放节目</translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -1613,6 +1617,13 @@
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>请关闭相机的菜单，再关机并重新开机</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-program</name>
+    <message>
+        <source>close the other program, a camera viewer or a second Relucent perhaps</source>
+        <translation>关闭另一个程序，可能是相机查看器或第二个 Relucent</translation>
     </message>
 </context>
 <context>
@@ -6917,6 +6928,10 @@ projector %2</source>
         <source>Errors are plain to see</source>
         <translation>误差明显可见</translation>
     </message>
+    <message>
+        <source>The frozen picture stands unseen until you show it again.</source>
+        <translation>冻结的画面仍在，重新显示之前看不到。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7866,6 +7881,10 @@ projector %2</source>
     <message>
         <source>There are no times yet.</source>
         <translation>还没有时间。</translation>
+    </message>
+    <message>
+        <source>Type a time of the day, such as %1.</source>
+        <translation>请输入一天中的时间，例如 %1。</translation>
     </message>
 </context>
 <context>

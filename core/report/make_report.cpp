@@ -108,13 +108,17 @@ double meanDeltaE(const fs::path& map) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
-/// How the photograph was judged; what nobody kept, or of something else than is shown now, is left open.
+/// How the photograph was judged; what nobody kept is left open, as is what is of something else than is
+/// shown now.
 void addJudgement(ReportVerification& verification, const fs::path& folder,
                   const calibration::CalibrationFolder& calibration,
                   const calibration::StageResult& acquired) {
   const std::optional<pipeline::ProofRecord> record = pipeline::loadProofRecord(folder);
-  if (!record || record->measurement != acquired.stored || !pipeline::isOfShown(*record, calibration)) return;
+  if (!record) return;
   verification.taken = record->taken;
+  verification.isOutOfDate =
+      record->measurement != acquired.stored || !pipeline::isOfShown(*record, calibration);
+  if (verification.isOutOfDate) return;
   verification.deltaEPredicted = record->figures.after.predicted.deltaE;
   verification.isAsPredicted = pipeline::isAsPredicted(record->figures);
   verification.viewThatDiffers = pipeline::viewThatDiffers(record->figures);

@@ -39,6 +39,11 @@ PageData figuresOf(const image::Image& wanted, const image::Image& before, const
 
 void addVerification(const ReportData& data, PageData& warnings, PageData& assurances) {
   const ReportVerification& shown = *data.verification;
+  if (shown.isOutOfDate)
+    warnings << PageData(fmt::format(
+        "The verification photograph, {}, is out of date: what is shown has been measured or chosen "
+        "anew since. Another one would prove it.",
+        localTime(shown.taken)));
   if (!shown.isAsPredicted) return;
   const std::string when = fmt::format("Photographed {}on {}", data.isSimulated ? "in the simulation " : "",
                                        localTime(shown.taken));
@@ -103,6 +108,7 @@ PageData verificationSection(const ReportData& data) {
   section.set("how", data.isSimulated ? "A simulation: projected and photographed by simulated devices"
                                       : "Projected in the venue and photographed");
   section.set("taken", localTime(shown.taken));
+  section.set("isOutOfDate", shown.isOutOfDate);
   section.set("views", views);
   return section;
 }

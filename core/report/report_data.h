@@ -51,6 +51,7 @@ struct ReportVerification {
   std::optional<bool> isAsPredicted{};           // pipeline/prove.h
   std::vector<ReportVerificationView> others{};  // of cameras beyond the first, in their order
   std::optional<std::size_t> viewThatDiffers{};  // which camera does not see what was predicted, from 0 on
+  bool isOutOfDate = false;  // it shows what was shown then: that was measured or chosen anew since
 };
 
 /// The newest check for drift.

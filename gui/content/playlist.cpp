@@ -74,12 +74,12 @@ std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canva
   return std::make_unique<StillImage>(item.path, canvas);
 }
 
-Playlist::Playlist(PlaylistSettings settings, Canvas canvas, Attendance attendance)
+Playlist::Playlist(PlaylistSettings settings, Canvas canvas, Attendance attendance, qsizetype first)
     : settings_(std::move(settings)), canvas_(canvas), attendance_(attendance) {
   if (std::vector<Message> wrong = problems(settings_); !wrong.empty())
     throw Error(ErrorKind::input, wrong.front(),
                 RELUCENT_ENGLISH_MESSAGE("content.change-playlist", "change the playlist"));
-  openNext(-1);
+  openNext(first > 0 && first < settings_.items.size() ? first - 1 : -1);
 }
 
 Playlist::~Playlist() {

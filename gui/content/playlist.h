@@ -57,10 +57,14 @@ std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canva
 /// that give no picture in time.
 class Playlist : public ContentSource {
  public:
-  /// Throws: Error{input} for wrong settings.
-  Playlist(PlaylistSettings settings, Canvas canvas, Attendance attendance = Attendance::attended);
+  /// `first`: the item that it begins with; the first one where there is none of that number.  Throws:
+  /// Error{input} for wrong settings.
+  Playlist(PlaylistSettings settings, Canvas canvas, Attendance attendance = Attendance::attended,
+           qsizetype first = 0);
   ~Playlist() override;
 
+  /// They stay as they are. May be called from any thread.
+  const PlaylistSettings& settings() const { return settings_; }
   /// An empty image while no item can be read.
   ContentPicture at(ContentTime time) override;
   std::optional<ContentTime> length() const override { return std::nullopt; }

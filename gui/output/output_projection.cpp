@@ -172,6 +172,18 @@ void OutputProjection::setList(const PlaylistSettings& list) {
   player_->setContent(content_);
 }
 
+void OutputProjection::changeList(const PlaylistSettings& list) {
+  if (!isOpen()) return;
+  qsizetype first = content_->status().playing;
+  if (first >= 0) {
+    const PlaylistItem& playing = content_->settings().items[first];
+    const bool isInPlace = first < list.items.size() && list.items[first] == playing;
+    if (const qsizetype now = list.items.indexOf(playing); !isInPlace && now >= 0) first = now;
+  }
+  content_ = std::make_shared<Playlist>(list, canvas_, Attendance::attended, first);
+  player_->setContent(content_);
+}
+
 void OutputProjection::setBlack(bool black) {
   if (player_) player_->setBlack(black);
   Q_EMIT changed();

@@ -50,8 +50,10 @@ class OutputProjection : public QObject {
   void useSet(const std::string& name) {
     if (player_) player_->useSet(name);
   }
-  /// Another list from the next frame on.
+  /// Another list from the next frame on, from its beginning.
   void setList(const PlaylistSettings& list);
+  /// The same list, edited: the item that plays is not interrupted for another one, if it is still there.
+  void changeList(const PlaylistSettings& list);
   bool isBlack() const { return player_ && player_->isBlack(); }
   bool isFrozen() const { return player_ && player_->isFrozen(); }
   bool isCompensated() const { return !player_ || player_->isCompensated(); }

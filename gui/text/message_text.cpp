@@ -61,7 +61,8 @@ QString fullSentence(const Message& message) {
   static const QString stops = QString::fromUtf8(".。");
   QString line = text(message).trimmed();
   if (line.isEmpty()) return line;
-  line[0] = line[0].toUpper();
+  // A device's address, "genicam:RL01", is spelt as it is.
+  if (!line.section(' ', 0, 0).chopped(1).contains(':')) line[0] = line[0].toUpper();
   if (stops.contains(line.back())) return line;
   // The stop is that of the sentence's own language.
   return message.id().empty() ? line + '.'

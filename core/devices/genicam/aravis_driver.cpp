@@ -151,7 +151,9 @@ class AravisDriver : public CameraDriver {
     if (arv_camera_is_gv_device(camera_.get()) != FALSE &&
         !arv_gv_device_is_controller(ARV_GV_DEVICE(device)))
       throw CameraLost(
-          RELUCENT_MESSAGE("device.another-program-holds-camera", "another program holds the camera"));
+          RELUCENT_MESSAGE("device.another-program-holds-camera", "another program holds the camera"),
+          RELUCENT_MESSAGE("device.close-other-program",
+                           "close the other program, a camera viewer or a second Relucent perhaps"));
   }
 
   /// A stream of its own for every listening: what was sent to the one before never comes out of this one.

@@ -36,6 +36,8 @@ NightsDialog::NightsDialog(std::vector<pipeline::NightRecord> nights, QWidget* p
   list_->setObjectName("nights-list");
   list_->setAccessibleName(tr("What came of each night, the last one first"));
   list_->setWordWrap(true);
+  list_->setResizeMode(QListView::Adjust);  // lines are broken for the width that it has
+  list_->setTextElideMode(Qt::ElideNone);
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   list_->setMinimumHeight(140);

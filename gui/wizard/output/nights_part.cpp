@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/output/nights_part.h"
 
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLocale>
 #include <QVBoxLayout>
@@ -42,6 +43,10 @@ NightsPart::NightsPart(OutputPage& page, QWidget* parent) : QWidget(parent), pag
   column->addWidget(open_);
   connect(open_, &QPushButton::clicked, this, &NightsPart::open);
   connect(&page_.session(), &Session::opened, this, &NightsPart::reload);
+  // Nights pass in the installed show, another program, while this page is looked at.
+  connect(&folder_, &QFileSystemWatcher::directoryChanged, this, [this] {
+    if (writtenNow() != written_) reload();
+  });
   // Which time it is at, and whether anything is installed.
   for (auto signal : {&OutputPage::settingsChanged, &OutputPage::resultChanged})
     connect(&page_, signal, this, [this] {
@@ -68,7 +73,15 @@ void NightsPart::showEvent(QShowEvent* event) {
   reload();
 }
 
+QDateTime NightsPart::writtenNow() const {
+  return QFileInfo(QString::fromStdString((page_.session().path() / pipeline::nightsName).string()))
+      .lastModified();
+}
+
 void NightsPart::reload() {
+  if (!folder_.directories().isEmpty()) folder_.removePaths(folder_.directories());
+  if (page_.session().isOpen()) folder_.addPath(QString::fromStdString(page_.session().path().string()));
+  written_ = writtenNow();
   nights_.clear();
   isUnreadable_ = false;
   open_->setIcon(iconOf(Icon::moon, colours().text));

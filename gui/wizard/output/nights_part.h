@@ -2,6 +2,8 @@
 #pragma once
 
 #include <QComboBox>
+#include <QDateTime>
+#include <QFileSystemWatcher>
 #include <QPushButton>
 #include <QWidget>
 #include <vector>
@@ -26,6 +28,7 @@ class NightsPart : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
+  QDateTime writtenNow() const;
   void reload();
   void showLast();
   void showTime();
@@ -33,6 +36,8 @@ class NightsPart : public QWidget {
 
   OutputPage& page_;
   std::vector<pipeline::NightRecord> nights_;
+  QFileSystemWatcher folder_;
+  QDateTime written_;  // their file, as it was read
   bool isUnreadable_ = false;
   Remark* last_;
   QLabel* what_;

@@ -339,9 +339,11 @@ std::optional<Banner> OutputPage::banner() const {
                                   "are out of date count with what was chosen there before."),
                   isReviewed ? nullptr : review_};
   }
-  if (isOpen() && showsChart())
+  if (isOpen() && showsChart() && !isBlack())
     return Banner{Banner::Kind::information, tr("A test chart is on the surface"),
-                  tr("The playlist runs on unseen until you show it again."), endChart_};
+                  isFrozen() ? tr("The frozen picture stands unseen until you show it again.")
+                             : tr("The playlist runs on unseen until you show it again."),
+                  endChart_};
   if (const auto stopped = onMeasurement(session_, goOnMeasuring_)) return stopped;
   if (!proof_.isOutOfDate()) return std::nullopt;
   return Banner{isOpen() ? Banner::Kind::information : Banner::Kind::amber,

@@ -16,7 +16,7 @@ void OutputPage::setPlaylist(const PlaylistSettings& settings) {
   if (playlist_.isEmpty())
     close();
   else
-    projection_.setList(settings);
+    projection_.changeList(settings);
 }
 
 void OutputPage::edit(const QString& what, const PlaylistSettings& after) {

@@ -2,8 +2,8 @@
 #include "wizard/output/set_times_dialog.h"
 
 #include <QComboBox>
+#include <QLineEdit>
 #include <QLocale>
-#include <QTimeEdit>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -11,6 +11,18 @@
 #include "theme/controls.h"
 
 namespace relucent::gui {
+
+namespace {
+
+/// As people write it, or none.
+QTime timeOf(const QString& text) {
+  for (const QString& format :
+       {QLocale().timeFormat(QLocale::ShortFormat), QString("H:mm"), QString("H.mm"), QString("H")})
+    if (const QTime time = QLocale().toTime(text.trimmed(), format); time.isValid()) return time;
+  return {};
+}
+
+}  // namespace
 
 SetTimesDialog::SetTimesDialog(const QStringList& sets, const QList<SetTime>& times, QWidget* parent)
     : QDialog(parent), times_(times) {
@@ -36,7 +48,8 @@ QWidget* SetTimesDialog::addRow(const QStringList& sets) {
   auto* line = new QWidget;
   auto* row = new QHBoxLayout(line);
   row->setContentsMargins(0, 0, 0, 0);
-  from_ = new QTimeEdit(QTime(18, 0));
+  // A line, which is typed over as a whole; an editor of hours and minutes is not.
+  from_ = new QLineEdit(QLocale().toString(QTime(18, 0), QLocale::ShortFormat));
   from_->setObjectName("set-time");
   from_->setAccessibleName(tr("From this time on"));
   set_ = new QComboBox;
@@ -51,9 +64,17 @@ QWidget* SetTimesDialog::addRow(const QStringList& sets) {
   row->addWidget(set_, 1);
   row->addWidget(add);
   row->addWidget(remove_);
+  const auto lookAtTime = [this, add] {
+    setPossible(add, timeOf(from_->text()).isValid()
+                         ? QString()
+                         : tr("Type a time of the day, such as %1.")
+                               .arg(QLocale().toString(QTime(18, 0), QLocale::ShortFormat)));
+  };
+  connect(from_, &QLineEdit::textChanged, this, lookAtTime);
+  lookAtTime();
   // Of one time there is one set.
   connect(add, &QPushButton::clicked, this, [this] {
-    const SetTime added{QTime(from_->time().hour(), from_->time().minute()), set_->currentText()};
+    const SetTime added{timeOf(from_->text()), set_->currentText()};
     times_.removeIf([&](const SetTime& time) { return time.from == added.from; });
     times_.append(added);
     refresh();

@@ -9,7 +9,7 @@
 #include "content/set_times.h"
 
 class QComboBox;
-class QTimeEdit;
+class QLineEdit;
 
 namespace relucent::gui {
 
@@ -31,7 +31,7 @@ class SetTimesDialog : public QDialog {
 
   QList<SetTime> times_;
   QListWidget* list_;
-  QTimeEdit* from_ = nullptr;
+  QLineEdit* from_ = nullptr;
   QComboBox* set_ = nullptr;
   QPushButton* remove_ = nullptr;
 };

@@ -122,7 +122,14 @@ void Session::hold(const fs::path& venue) {
 
 void Session::lookForShow() {
   const bool isShown = isOpen() && VenueUse::isTaken(path_, VenueUse::Way::show);
-  if (std::exchange(isShownElsewhere_, isShown) != isShown) Q_EMIT devicesChanged();
+  if (std::exchange(isShownElsewhere_, isShown) == isShown) return;
+  leaveDevicesToShow();
+  Q_EMIT devicesChanged();
+}
+
+/// Its camera is to look after the picture at night. What is held for later would be another program's to it.
+void Session::leaveDevicesToShow() {
+  if (isShownElsewhere_) letGoOfDevices();
 }
 
 void Session::endOtherShow() {
@@ -558,6 +565,7 @@ void Session::takeBackDevices() {
   silentCamera_.reset();
   cameraFailure_.clear();
   if (devices_) devices_->rest();
+  leaveDevicesToShow();
 }
 
 }  // namespace relucent::gui

@@ -373,6 +373,7 @@ class Session : public QObject {
   /// Throws: Error{input} if another wizard has it.
   void hold(const std::filesystem::path& venue);
   void lookForShow();
+  void leaveDevicesToShow();
   void adopt(calibration::CalibrationFolder given);
   void slowDown();
   void consentChanged();

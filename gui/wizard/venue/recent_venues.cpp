@@ -5,6 +5,7 @@
 #include <QDir>
 #include <QFileInfo>
 
+#include "output/venue_use.h"
 #include "relucent/base/error.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
@@ -26,6 +27,7 @@ QString folderOf(const QString& entry) {
 }
 
 QString stateOf(const calibration::CalibrationFolder& folder) {
+  if (VenueUse::isTaken(folder.path(), VenueUse::Way::show)) return Translated::tr("A show plays");
   const bool isFirst =
       calibration::progressOf(folder, calibration::Stage::acquisition) == calibration::StageProgress::open;
   const int kept = photographsInterrupted(folder);

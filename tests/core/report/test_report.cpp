@@ -220,6 +220,13 @@ class TestReport : public QObject {
     QVERIFY(!page.contains("Nothing stands out") && page.contains("should be repaired"));
     data.drift->verdict = Verdict::startAgain;
     QVERIFY(html(data).contains("hardly anything fits"));
+    // Of what is no longer shown: it says so where it is and before.
+    data.drift.reset();
+    data.verification->isAsPredicted.reset();
+    data.verification->isOutOfDate = true;
+    page = html(data);
+    QCOMPARE(page.count("note amber"), 1);
+    QCOMPARE(page.count("measured or chosen anew"), 2);
   }
 
   /// The error before and after of a perfected picture, and of each night what came of it, the last one

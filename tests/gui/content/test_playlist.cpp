@@ -112,6 +112,15 @@ class TestPlaylist : public QObject {
     QVERIFY_THROWS_EXCEPTION(std::logic_error, playlist.playItem(-1));
   }
 
+  void beginsWithAnItem() {
+    Playlist playlist(list({10, 20, 30}, 2.0, 0.0), small, Attendance::attended, 1);
+    QCOMPARE(grey(settledAt(playlist, 100s)), 20);
+    QCOMPARE(grey(settledAt(playlist, 102s)), 30);
+    QCOMPARE(grey(settledAt(playlist, 104s)), 10);
+    for (const qsizetype none : {-1, 3})
+      QCOMPARE(grey(Playlist(list({10, 20, 30}, 2.0, 0.0), small, Attendance::attended, none).at(0s)), 10);
+  }
+
   /// Also where nothing would come any more.
   void jumpsFromTheEnd() {
     PlaylistSettings once = list({10, 20}, 2.0, 0.0);

@@ -151,6 +151,7 @@ class TestMessageText : public QObject {
     QCOMPARE(fullSentence(sees("a", "b")), "The camera sees a, not b.");
     QCOMPARE(fullSentence(Message::plain("it is so.")), "It is so.");
     QCOMPARE(fullSentence(Message::plain("{} is so")), "{} is so.");
+    QCOMPARE(fullSentence(Message::plain("genicam:RL01: it is off")), "genicam:RL01: it is off.");
     QCOMPARE(fullSentence(Message()), QString());
     Spoken loudly;
     QCOMPARE(fullSentence(patterns(1)), "LEVEL 3 OF 8: 1 PATTERN!");

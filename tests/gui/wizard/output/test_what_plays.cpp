@@ -3,11 +3,11 @@
 // tests/support/with-two-screens: DUMMY1 is the projector's.
 #include <QComboBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTemporaryDir>
-#include <QTimeEdit>
 #include <QtTest>
 
 #include "gui/output/two_screens.h"
@@ -191,7 +191,12 @@ class TestWhatPlays : public QObject {
     SetTimesDialog dialog({"day", "night"}, {{{18, 0}, "day"}});
     QSignalSpy chosen(&dialog, &SetTimesDialog::chosen);
     const auto add = [&](QTime time, const char* set) {
-      dialog.findChild<QTimeEdit*>("set-time")->setTime(time);
+      auto* typed = dialog.findChild<QLineEdit*>("set-time");
+      typed->selectAll();
+      QTest::keyClicks(typed, "25");
+      QVERIFY(!dialog.findChild<QPushButton*>("add-set-time")->isEnabled());
+      typed->selectAll();
+      QTest::keyClicks(typed, time.toString("H:mm"));
       dialog.findChild<QComboBox*>("set-of-time")->setCurrentText(set);
       dialog.findChild<QPushButton*>("add-set-time")->click();
     };
@@ -264,11 +269,38 @@ class TestWhatPlays : public QObject {
     // Black is what is seen of both.
     page_->setBlack(true);
     QCOMPARE(page_->status().result, OutputPage::tr("Black"));
+    QVERIFY(!page_->banner());
     page_->setBlack(false);
     page_->banner()->command->trigger();
     QVERIFY(!page_->showsChart() && !page_->banner());
     QCOMPARE(page_->status().result, OutputPage::tr("Playing"));
     QTRY_VERIFY(marked());
+  }
+
+  /// Law: what plays is not interrupted by a change of the list around it.
+  void anEditedListPlaysOn() {
+    QStringList files;
+    for (int grey : {40, 80, 120}) {
+      files << QString::fromStdString(own_.path("grey-" + std::to_string(grey) + ".png").string());
+      QImage picture(16, 12, QImage::Format_RGB32);
+      picture.fill(QColor(grey, grey, grey));
+      QVERIFY(picture.save(files.back()));
+    }
+    page_->addFiles({files[0], files[1]});
+    openOutput();
+    const auto playing = [&] {
+      const qsizetype index = page_->projection().playing();
+      return index < 0 ? QString() : page_->playlist().settings().items.at(index).path;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(!playing().isEmpty(), patience);
+    const QString first = playing();
+    page_->moveItem(page_->projection().playing(), 1);
+    QTRY_COMPARE_WITH_TIMEOUT(page_->projection().playing(), qsizetype{1}, patience);
+    QCOMPARE(playing(), first);
+    page_->addFiles({files[2]});
+    page_->removeItem(0);
+    QTRY_COMPARE_WITH_TIMEOUT(page_->projection().playing(), qsizetype{0}, patience);
+    QCOMPARE(playing(), first);
   }
 
   /// Law: the list that is seen is the one that plays, also when a picture comes to it from Preview: what is

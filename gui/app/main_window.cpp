@@ -248,13 +248,16 @@ void MainWindow::followFocus(QWidget* before, QWidget* now) {
     return;
   }
   stages_->setFocus();
+  const bool isCommand = actions_->isAncestorOf(before);
   // Once the stage knows what has ended, unless another page has the focus by then.
   QMetaObject::invokeMethod(
       this,
-      [this] {
+      [this, isCommand] {
         if (focusWidget() != stages_) return;
         focusFirst(stages_);  // where nothing takes it, the stage itself has it
-        focusLent_ = focusWidget();
+        // Of a button elsewhere that began no work, the focus is not to come back on what leads on.
+        hasWorked_ = wizard_.currentPage().progress().has_value();
+        focusLent_ = isCommand || hasWorked_ ? focusWidget() : nullptr;
         returnFocus();
       },
       Qt::QueuedConnection);

@@ -748,6 +748,14 @@ class TestWizardWindow : public QObject {
     QVERIFY(!find<QWidget>("remove-installed")->isVisible());
     wizard_->window().activateWindow();
     QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
+    // What a banner offers goes with it, and leaves the focus on nothing that the next Enter would do
+    // unasked.
+    output.projection().nextChart();
+    QTRY_VERIFY(find<QWidget>("banner-primary")->isVisible());
+    find<QWidget>("banner-primary")->setFocus();
+    click("banner-primary");
+    QTRY_VERIFY(!find<QWidget>("banner-primary")->isVisible());
+    QTRY_VERIFY(find<QWidget>("output-stage")->isAncestorOf(wizard_->window().focusWidget()));
     find<QWidget>("secondary-2")->setFocus();
     click("secondary-2");
     QTRY_VERIFY(!output.isOpen());

@@ -5092,6 +5092,14 @@
         <source>It is ending</source>
         <translation>ينتهي الآن</translation>
     </message>
+    <message>
+        <source>The show that another program plays of another venue: the projector&apos;s screen goes dark.</source>
+        <translation>العرض الذي يشغّله برنامج آخر لموقع آخر: تُظلم شاشة جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector</source>
+        <translation>يشغّل برنامج آخر عرضًا لموقع آخر على جهاز العرض هذا</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -7111,6 +7119,14 @@ projector %2</source>
     <message>
         <source>The frozen picture stands unseen until you show it again.</source>
         <translation>الصورة المجمّدة قائمة دون أن تُرى حتى تُظهرها من جديد.</translation>
+    </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of another venue on this projector.</source>
+        <translation>الخرج مغلق هنا. يشغّل برنامج آخر عرضًا لموقع آخر على جهاز العرض هذا.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector.</source>
+        <translation>يشغّل برنامج آخر عرضًا لموقع آخر على جهاز العرض هذا.</translation>
     </message>
 </context>
 <context>

@@ -4976,6 +4976,14 @@
         <source>It is ending</source>
         <translation>Sie endet gerade</translation>
     </message>
+    <message>
+        <source>The show that another program plays of another venue: the projector&apos;s screen goes dark.</source>
+        <translation>Die Show, die ein anderes Programm von einem anderen Spielort spielt: Der Bildschirm des Projektors wird dunkel.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector</source>
+        <translation>Ein anderes Programm spielt auf diesem Projektor eine Show eines anderen Spielorts</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -6967,6 +6975,14 @@ Projektor %2</translation>
     <message>
         <source>The frozen picture stands unseen until you show it again.</source>
         <translation>Das eingefrorene Bild steht ungesehen, bis Sie es wieder zeigen.</translation>
+    </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of another venue on this projector.</source>
+        <translation>Die Ausgabe ist hier geschlossen. Ein anderes Programm spielt auf diesem Projektor eine Show eines anderen Spielorts.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector.</source>
+        <translation>Ein anderes Programm spielt auf diesem Projektor eine Show eines anderen Spielorts.</translation>
     </message>
 </context>
 <context>

@@ -4976,6 +4976,14 @@
         <source>It is ending</source>
         <translation>Está terminando</translation>
     </message>
+    <message>
+        <source>The show that another program plays of another venue: the projector&apos;s screen goes dark.</source>
+        <translation>El show de otro lugar que reproduce otro programa: la pantalla del proyector queda a oscuras.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector</source>
+        <translation>Otro programa está reproduciendo un show de otro lugar en este proyector</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -6967,6 +6975,14 @@ proyector %2</translation>
     <message>
         <source>The frozen picture stands unseen until you show it again.</source>
         <translation>La imagen congelada sigue ahí sin verse hasta que la muestre de nuevo.</translation>
+    </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of another venue on this projector.</source>
+        <translation>La salida está cerrada aquí. Otro programa está reproduciendo un show de otro lugar en este proyector.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector.</source>
+        <translation>Otro programa está reproduciendo un show de otro lugar en este proyector.</translation>
     </message>
 </context>
 <context>

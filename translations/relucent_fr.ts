@@ -4976,6 +4976,14 @@
         <source>It is ending</source>
         <translation>Elle se termine</translation>
     </message>
+    <message>
+        <source>The show that another program plays of another venue: the projector&apos;s screen goes dark.</source>
+        <translation>La diffusion d’un autre lieu par un autre programme : l’écran du projecteur s’éteint.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector</source>
+        <translation>Un autre programme diffuse un autre lieu sur ce projecteur</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -6967,6 +6975,14 @@ projecteur %2</translation>
     <message>
         <source>The frozen picture stands unseen until you show it again.</source>
         <translation>L’image figée reste, invisible, jusqu’à ce que vous l’affichiez à nouveau.</translation>
+    </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of another venue on this projector.</source>
+        <translation>La sortie est fermée ici. Un autre programme diffuse un autre lieu sur ce projecteur.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector.</source>
+        <translation>Un autre programme diffuse un autre lieu sur ce projecteur.</translation>
     </message>
 </context>
 <context>

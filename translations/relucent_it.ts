@@ -4976,6 +4976,14 @@
         <source>It is ending</source>
         <translation>Sta terminando</translation>
     </message>
+    <message>
+        <source>The show that another program plays of another venue: the projector&apos;s screen goes dark.</source>
+        <translation>Lo show di un altro luogo che un altro programma riproduce: lo schermo del proiettore si spegne.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector</source>
+        <translation>Un altro programma sta riproducendo uno show di un altro luogo su questo proiettore</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -6967,6 +6975,14 @@ proiettore %2</translation>
     <message>
         <source>The frozen picture stands unseen until you show it again.</source>
         <translation>L’immagine bloccata resta, non vista, finché non la si mostra di nuovo.</translation>
+    </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of another venue on this projector.</source>
+        <translation>L’uscita è chiusa qui. Un altro programma sta riproducendo uno show di un altro luogo su questo proiettore.</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector.</source>
+        <translation>Un altro programma sta riproducendo uno show di un altro luogo su questo proiettore.</translation>
     </message>
 </context>
 <context>

@@ -4947,6 +4947,14 @@
         <source>It is ending</source>
         <translation>終了しています</translation>
     </message>
+    <message>
+        <source>The show that another program plays of another venue: the projector&apos;s screen goes dark.</source>
+        <translation>別のプログラムが再生している別の会場のショー：プロジェクターの画面が暗くなります。</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector</source>
+        <translation>別のプログラムがこのプロジェクターで別の会場のショーを再生しています</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -6931,6 +6939,14 @@ projector %2</source>
     <message>
         <source>The frozen picture stands unseen until you show it again.</source>
         <translation>静止した画像は、再び表示するまで見えないまま残ります。</translation>
+    </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of another venue on this projector.</source>
+        <translation>ここの出力は閉じています。別のプログラムがこのプロジェクターで別の会場のショーを再生しています。</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector.</source>
+        <translation>別のプログラムがこのプロジェクターで別の会場のショーを再生しています。</translation>
     </message>
 </context>
 <context>

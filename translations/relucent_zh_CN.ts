@@ -4947,6 +4947,14 @@
         <source>It is ending</source>
         <translation>正在结束</translation>
     </message>
+    <message>
+        <source>The show that another program plays of another venue: the projector&apos;s screen goes dark.</source>
+        <translation>另一个程序播放的另一场地的节目：投影机的屏幕将变暗。</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector</source>
+        <translation>另一个程序正在此投影机上播放另一场地的节目</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -6931,6 +6939,14 @@ projector %2</source>
     <message>
         <source>The frozen picture stands unseen until you show it again.</source>
         <translation>冻结的画面仍在，重新显示之前看不到。</translation>
+    </message>
+    <message>
+        <source>The output is closed here. Another program plays a show of another venue on this projector.</source>
+        <translation>此处的输出已关闭。另一个程序正在此投影机上播放另一场地的节目。</translation>
+    </message>
+    <message>
+        <source>Another program plays a show of another venue on this projector.</source>
+        <translation>另一个程序正在此投影机上播放另一场地的节目。</translation>
     </message>
 </context>
 <context>

@@ -142,6 +142,8 @@ void Show::open() {
       });
       escape_.watch(*window);
       windows_.push_back(std::move(window));
+      if (auto screen = VenueUse::take(VenueUse::ofScreen(display.connector), VenueUse::Way::screen))
+        screens_.push_back(*std::move(screen));
     }
     if (!windows_.empty() && !windows_.front()->surface().keepsStep())
       log_.warn("there is no OpenGL: pictures go through memory, not in step with the displays");

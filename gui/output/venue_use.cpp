@@ -23,13 +23,22 @@ QString noteOf(const fs::path& venue, VenueUse::Way way) {
   const QByteArray name =
       QCryptographicHash::hash(QByteArray::fromStdString(whole.string()), QCryptographicHash::Sha1);
   // Not by the program's names: every part of it, and tests of it, mean the same.
-  return QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/relucent/in-use/" +
-         (way == VenueUse::Way::wizard ? "wizard-" : "show-") + name.toHex();
+  const char* const what = way == VenueUse::Way::wizard ? "wizard-"
+                           : way == VenueUse::Way::show ? "show-"
+                                                        : "screen-";
+  return QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/relucent/in-use/" + what +
+         name.toHex();
 }
 
 constexpr const char* holderName = "/process";  // its number
 
 }  // namespace
+
+fs::path VenueUse::ofScreen(const QString& connector) {
+  const QByteArray wayland = qgetenv("WAYLAND_DISPLAY");
+  const QByteArray desktop = wayland.isEmpty() ? qgetenv("DISPLAY") : wayland;
+  return fs::path("/") / desktop.toStdString() / connector.toStdString();
+}
 
 std::optional<VenueUse> VenueUse::take(const fs::path& venue, Way way) try {
   const QString note = noteOf(venue, way);

@@ -16,8 +16,11 @@ class VenueUse {
  public:
   enum class Way {
     wizard,  // opened by one at a time: its pages show what they have read
-    show     // by `relucent show`, beside a wizard
+    show,    // by `relucent show`, beside a wizard
+    screen   // one of its screens, by whichever venue's show: of ofScreen()
   };
+  /// In place of a venue, a screen of this desktop.
+  static std::filesystem::path ofScreen(const QString& connector);
   /// Empty: another program uses it in this way. A computer that keeps no such notes grants all.
   static std::optional<VenueUse> take(const std::filesystem::path& venue, Way way);
   /// Whether another program does, or another VenueUse of this one.

@@ -34,7 +34,9 @@ void DevicePage::askToEndShow() {
   question.isQuestion = question.endsWork = true;
   question.failure.heading = tr("A show is playing");
   question.failure.what =
-      tr("The show that another program plays of this venue: the projector's screen goes dark.");
+      session_.isAnotherVenueShown()
+          ? tr("The show that another program plays of another venue: the projector's screen goes dark.")
+          : tr("The show that another program plays of this venue: the projector's screen goes dark.");
   question.safe = tr("Venue and playlist stay. An installed show starts again at the next log-in.");
   question.goOn = endShowNow_;
   question.resume = letItPlay_;
@@ -45,7 +47,9 @@ void DevicePage::askToEndShow() {
 std::optional<Banner> DevicePage::besideAnotherShow() const {
   if (!session_.isShownElsewhere()) return std::nullopt;
   return Banner{
-      Banner::Kind::amber, tr("Another program plays a show of this venue"),
+      Banner::Kind::amber,
+      session_.isAnotherVenueShown() ? tr("Another program plays a show of another venue on this projector")
+                                     : tr("Another program plays a show of this venue"),
       tr("Its pictures shine on the projector whatever is shown from here, and may come between patterns "
          "that are measured."),
       endShow_};

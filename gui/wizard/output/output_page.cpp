@@ -169,6 +169,8 @@ QString OutputPage::whatIsProjected() const {
     return tr("The output is closed. Patterns to be photographed are projected.");
   if (session_.isProjecting())
     return tr("The output is closed. The devices are in use at %1.").arg(session_.devicesUserName());
+  if (session_.isAnotherVenueShown())
+    return tr("The output is closed here. Another program plays a show of another venue on this projector.");
   if (session_.isShownElsewhere())
     return tr("The output is closed here. Another program plays a show of this venue.");
   return tr("The output is closed. Nothing is projected from here.");
@@ -222,6 +224,8 @@ QString OutputPage::hint() const {
         return playingHint();
     }
   }
+  if (session_.isAnotherVenueShown())
+    return tr("Another program plays a show of another venue on this projector.");
   if (session_.isShownElsewhere()) return tr("Another program plays a show of this venue.");
   if (isDoubted())
     return tr("The surface did not look as predicted. Open the output: it leads to what helps.");

@@ -120,25 +120,37 @@ void Session::hold(const fs::path& venue) {
   use_ = std::move(use);
 }
 
+std::optional<Session::OtherShow> Session::otherShow() const {
+  if (!isOpen()) return std::nullopt;
+  if (VenueUse::isTaken(path_, VenueUse::Way::show)) return OtherShow{path_, VenueUse::Way::show};
+  for (std::size_t projector = 0; projector < projectors(); ++projector) {
+    const std::optional<pipeline::ScreenRigSettings> rig = screenOf(projector);
+    if (!rig) continue;
+    const fs::path screen = VenueUse::ofScreen(QString::fromStdString(rig->display.connector));
+    if (VenueUse::isTaken(screen, VenueUse::Way::screen)) return OtherShow{screen, VenueUse::Way::screen};
+  }
+  return std::nullopt;
+}
+
 void Session::lookForShow() {
-  const bool isShown = isOpen() && VenueUse::isTaken(path_, VenueUse::Way::show);
-  if (std::exchange(isShownElsewhere_, isShown) == isShown) return;
+  const std::optional<OtherShow> now = otherShow();
+  if (std::exchange(otherShow_, now) == now) return;
   leaveDevicesToShow();
   Q_EMIT devicesChanged();
 }
 
 /// Its camera is to look after the picture at night. What is held for later would be another program's to it.
 void Session::leaveDevicesToShow() {
-  if (isShownElsewhere_) letGoOfDevices();
+  if (otherShow_) letGoOfDevices();
 }
 
 void Session::endOtherShow() {
-  if (VenueUse::end(path_, VenueUse::Way::show)) {
+  if (otherShow_ && VenueUse::end(otherShow_->what, otherShow_->way)) {
     ending_.start();
     Q_EMIT devicesChanged();
     return;
   }
-  if (!VenueUse::isTaken(path_, VenueUse::Way::show)) return;
+  if (!otherShow()) return;
   throw Error(
       ErrorKind::input,
       RELUCENT_MESSAGE("session.cannot-end-show", "the other program may not be ended from here"),
@@ -166,7 +178,7 @@ void Session::adopt(calibration::CalibrationFolder given) {
   roomLight_.reset();
   slowDown();
   makeDevices();
-  isShownElsewhere_ = VenueUse::isTaken(path_, VenueUse::Way::show);
+  otherShow_ = otherShow();
   ending_.stop();
   Q_EMIT opened();
   Q_EMIT stepsChanged();

@@ -325,12 +325,13 @@ class Session : public QObject {
   bool isMeasuring() const { return devicesUser_ && deviceWork_ == DeviceWork::measurement; }
   /// A show plays on the projectors' screens.
   void setShowing(bool showing);
-  /// `relucent show` plays this venue beside the wizard, on this computer.
-  bool isShownElsewhere() const { return isShownElsewhere_; }
+  /// `relucent show` plays this venue beside the wizard, on this computer, or another one on its screens.
+  bool isShownElsewhere() const { return otherShow_.has_value(); }
+  bool isAnotherVenueShown() const { return otherShow_ && otherShow_->way == VenueUse::Way::screen; }
   /// Asks that show to end, which it does in its own time. Throws: Error{input} if this may not.
   void endOtherShow();
   /// It was asked, and may still do so.
-  bool isOtherShowEnding() const { return isShownElsewhere_ && ending_.isActive(); }
+  bool isOtherShowEnding() const { return otherShow_ && ending_.isActive(); }
   /// What another calibration, or the end of the program, would end: not without a question.
   UnderWay underWay() const { return {isMeasuring(), isShowing_}; }
   /// Why a step can keep no settings now, in a sentence: work of another step has the calibration. Empty: it
@@ -372,6 +373,13 @@ class Session : public QObject {
   void changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write);
   /// Throws: Error{input} if another wizard has it.
   void hold(const std::filesystem::path& venue);
+  /// What of this venue another program's show has.
+  struct OtherShow {
+    std::filesystem::path what;
+    VenueUse::Way way = VenueUse::Way::show;
+    bool operator==(const OtherShow&) const = default;
+  };
+  std::optional<OtherShow> otherShow() const;
   void lookForShow();
   void leaveDevicesToShow();
   void adopt(calibration::CalibrationFolder given);
@@ -403,7 +411,8 @@ class Session : public QObject {
   std::optional<StepName> devicesUser_;
   DeviceWork deviceWork_ = DeviceWork::brief;
   std::function<void()> whenUnclear_;  // of who uses them; empty: nothing of that flashes
-  bool isShowing_ = false, isShownElsewhere_ = false;
+  bool isShowing_ = false;
+  std::optional<OtherShow> otherShow_;
   int flashLimit_ = 0;
   QTimer consent_;  // runs while the room is said to be clear and nothing is done there
   bool roomClear_ = false;

@@ -158,6 +158,32 @@ class TestVenueUse : public QObject {
     QCOMPARE(told.size(), 1);
   }
 
+  /// Law: a projector has one picture, whichever venue it is measured for.
+  void aShowOfAnotherVenueOnItsScreenIsKnown() {
+    pipeline::ScreenRigSettings rig;
+    rig.display.connector = "HDMI-7";
+    rig.projector = {48, 36};
+    rig.camera = {40, 30};
+    rig.cameraAddress = "genicam:nowhere";
+    pipeline::CalibrateSettings settings = smallVenue();
+    settings.rig = rig;
+    SimulatedSession venue;
+    venue.begin(settings);
+    QVERIFY(!venue.session.isShownElsewhere());
+    {
+      const auto other = VenueUse::take(VenueUse::ofScreen("HDMI-8"), Way::screen);
+      const auto show = VenueUse::take(VenueUse::ofScreen("HDMI-7"), Way::screen);
+      QVERIFY(other && show);
+      QTRY_VERIFY_WITH_TIMEOUT(venue.session.isAnotherVenueShown(), patience);
+      QVERIFY(venue.session.isShownElsewhere());
+      // Its own show is what is said of it where both are there.
+      const auto own = VenueUse::take(venue.path("venue"), Way::show);
+      QTRY_VERIFY_WITH_TIMEOUT(!venue.session.isAnotherVenueShown(), patience);
+      QVERIFY(venue.session.isShownElsewhere());
+    }
+    QTRY_VERIFY_WITH_TIMEOUT(!venue.session.isShownElsewhere(), patience);
+  }
+
   /// Law: between being asked and having ended, a show is said to end.
   void aShowThatEndsIsSaidTo() {
     SimulatedSession venue;

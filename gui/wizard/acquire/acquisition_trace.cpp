@@ -25,7 +25,7 @@ bool isRoomSteady(const sentinels::Reading& reading) {
   return !isOf(reading, {sentinels::AlarmKind::ambientChanged}) && off <= sentinels::reading_limit::roomLight;
 }
 
-QString reasonOf(const sentinels::Retake& retake) {
+QString reasonOfRetake(const sentinels::Retake& retake) {
   switch (retake.reason) {
     case sentinels::RetakeReason::alarm:
       return AcquisitionTrace::reasonOf(retake.alarm.value_or(sentinels::AlarmKind::localChange));
@@ -257,7 +257,7 @@ bool AcquisitionTrace::isAnswered() const {
 std::vector<TakenAgain> AcquisitionTrace::takenAgain(std::size_t most) const {
   std::vector<TakenAgain> lines;
   for (auto mark = marks_.rbegin(); mark != marks_.rend() && lines.size() < most; ++mark)
-    lines.push_back({patternsOf(mark->retake), reasonOf(mark->retake)});
+    lines.push_back({patternsOf(mark->retake), reasonOfRetake(mark->retake)});
   return lines;
 }
 

@@ -144,7 +144,7 @@ class TestVenueUse : public QObject {
       QCOMPARE(told.size(), 1);
       // The show wants its camera at night: none is held for later, nor after it was used.
       QVERIFY(held.expired());
-      DeviceLease lease = venue.session.leaseDevices("test");
+      DeviceLease lease = venue.session.leaseDevices({"camera", "", "Camera"});
       const std::weak_ptr<SessionDevices> used = venue.session.devices();
       QVERIFY(!used.expired());
       lease.release();

@@ -281,7 +281,7 @@ class TestWhatPlays : public QObject {
   void anEditedListPlaysOn() {
     QStringList files;
     for (int grey : {40, 80, 120}) {
-      files << QString::fromStdString(own_.path("grey-" + std::to_string(grey) + ".png").string());
+      files << QString::fromStdString(own_.path(QString("grey-%1.png").arg(grey)).string());
       QImage picture(16, 12, QImage::Format_RGB32);
       picture.fill(QColor(grey, grey, grey));
       QVERIFY(picture.save(files.back()));

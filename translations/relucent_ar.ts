@@ -655,6 +655,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photograph-dark</name>
+    <message>
+        <source>one of two photographs of a pattern is dark: the lens was covered, or the projector&apos;s picture gone</source>
+        <translation>إحدى صورتين للنمط مظلمة: غُطيت العدسة، أو اختفت صورة جهاز العرض</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -5569,6 +5576,14 @@
     <message>
         <source>To measure again, confirm that the room is clear.</source>
         <translation>للقياس من جديد أكّد أن القاعة خالية.</translation>
+    </message>
+    <message>
+        <source>Colours off by %1</source>
+        <translation>الألوان منحرفة بمقدار %1</translation>
+    </message>
+    <message>
+        <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
+        <translation>الصور يناقض بعضها بعضًا. تأكد من أن لا شيء يغطي العدسة، ثم أعد القياس.</translation>
     </message>
 </context>
 <context>

@@ -635,6 +635,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photograph-dark</name>
+    <message>
+        <source>one of two photographs of a pattern is dark: the lens was covered, or the projector&apos;s picture gone</source>
+        <translation>eines von zwei Fotos eines Musters ist dunkel: Das Objektiv war verdeckt, oder das Bild des Projektors war weg</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -5441,6 +5448,14 @@
     <message>
         <source>To measure again, confirm that the room is clear.</source>
         <translation>Um neu zu messen, bestätigen Sie, dass der Raum geräumt ist.</translation>
+    </message>
+    <message>
+        <source>Colours off by %1</source>
+        <translation>Farben um %1 daneben</translation>
+    </message>
+    <message>
+        <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
+        <translation>Die Fotos widersprechen einander. Dafür sorgen, dass nichts das Objektiv verdeckt, dann noch einmal messen.</translation>
     </message>
 </context>
 <context>

@@ -635,6 +635,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photograph-dark</name>
+    <message>
+        <source>one of two photographs of a pattern is dark: the lens was covered, or the projector&apos;s picture gone</source>
+        <translation>una de las dos fotografías de un patrón está oscura: el objetivo estaba tapado o la imagen del proyector faltaba</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -5441,6 +5448,14 @@
     <message>
         <source>To measure again, confirm that the room is clear.</source>
         <translation>Para medir de nuevo, confirme que la sala está despejada.</translation>
+    </message>
+    <message>
+        <source>Colours off by %1</source>
+        <translation>Colores desviados un %1</translation>
+    </message>
+    <message>
+        <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
+        <translation>Las fotografías se contradicen. Compruebe que nada tape el objetivo y mida de nuevo.</translation>
     </message>
 </context>
 <context>

@@ -635,6 +635,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photograph-dark</name>
+    <message>
+        <source>one of two photographs of a pattern is dark: the lens was covered, or the projector&apos;s picture gone</source>
+        <translation>l’une des deux photos d’un motif est sombre : l’objectif était masqué, ou l’image du projecteur absente</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -4978,7 +4985,7 @@
     </message>
     <message>
         <source>The show that another program plays of another venue: the projector&apos;s screen goes dark.</source>
-        <translation>La diffusion d’un autre lieu par un autre programme : l’écran du projecteur s’éteint.</translation>
+        <translation>La diffusion d’un autre lieu par un autre programme&#xa0;: l’écran du projecteur s’éteint.</translation>
     </message>
     <message>
         <source>Another program plays a show of another venue on this projector</source>
@@ -5441,6 +5448,14 @@
     <message>
         <source>To measure again, confirm that the room is clear.</source>
         <translation>Pour mesurer à nouveau, confirmez que la salle est évacuée.</translation>
+    </message>
+    <message>
+        <source>Colours off by %1</source>
+        <translation>Couleurs décalées de %1</translation>
+    </message>
+    <message>
+        <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
+        <translation>Les photos se contredisent. Vérifiez que rien ne masque l’objectif, puis mesurez de nouveau.</translation>
     </message>
 </context>
 <context>

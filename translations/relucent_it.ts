@@ -635,6 +635,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photograph-dark</name>
+    <message>
+        <source>one of two photographs of a pattern is dark: the lens was covered, or the projector&apos;s picture gone</source>
+        <translation>una di due fotografie di un pattern è scura: l’obiettivo era coperto, o mancava l’immagine del proiettore</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -5441,6 +5448,14 @@
     <message>
         <source>To measure again, confirm that the room is clear.</source>
         <translation>Per misurare di nuovo, confermare che la sala è sgombra.</translation>
+    </message>
+    <message>
+        <source>Colours off by %1</source>
+        <translation>Colori fuori di %1</translation>
+    </message>
+    <message>
+        <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
+        <translation>Le fotografie si contraddicono. Controllare che nulla copra l’obiettivo, poi misurare di nuovo.</translation>
     </message>
 </context>
 <context>

@@ -630,6 +630,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photograph-dark</name>
+    <message>
+        <source>one of two photographs of a pattern is dark: the lens was covered, or the projector&apos;s picture gone</source>
+        <translation>1 つのパターンの 2 枚の写真のうち 1 枚が暗くなっています：レンズが覆われていたか、プロジェクターの画像が消えていました</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -5409,6 +5416,14 @@
     <message>
         <source>To measure again, confirm that the room is clear.</source>
         <translation>測定し直すには、退避が完了したことを確認してください。</translation>
+    </message>
+    <message>
+        <source>Colours off by %1</source>
+        <translation>色の誤差 %1</translation>
+    </message>
+    <message>
+        <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
+        <translation>写真どうしが矛盾しています。レンズを覆うものがないことを確かめてから、測定し直してください。</translation>
     </message>
 </context>
 <context>

@@ -630,6 +630,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photograph-dark</name>
+    <message>
+        <source>one of two photographs of a pattern is dark: the lens was covered, or the projector&apos;s picture gone</source>
+        <translation>同一图案的两张照片中有一张是暗的：镜头被遮住，或投影机的画面消失</translation>
+    </message>
+</context>
+<context>
     <name>alarm.photographs-differ</name>
     <message>
         <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
@@ -5409,6 +5416,14 @@
     <message>
         <source>To measure again, confirm that the room is clear.</source>
         <translation>要重新测量，请确认已清场。</translation>
+    </message>
+    <message>
+        <source>Colours off by %1</source>
+        <translation>颜色偏差 %1</translation>
+    </message>
+    <message>
+        <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
+        <translation>照片相互矛盾。请确认没有东西遮挡镜头，然后重新测量。</translation>
     </message>
 </context>
 <context>

@@ -20,8 +20,9 @@ constexpr std::uint64_t referenceKey = 0x7265666572ULL;
 
 // Beyond what drift does between two checks; more of them in observer.h.
 constexpr std::size_t mostCompared = 60000;  // camera pixels whose sum tells whether a pattern is dark
-constexpr double localLimit = 0.25;   // of a pixel's own and the typical light: something is in the way
-constexpr double localShare = 0.003;  // of the camera pixels
+constexpr double nothingShare = 0.05;  // a camera that sees a corner may see one colour of the picture alone
+constexpr double localLimit = 0.25;    // of a pixel's own and the typical light: something is in the way
+constexpr double localShare = 0.003;   // of the camera pixels
 constexpr double sigmas = 6.0;
 constexpr double clearly = 4.0;        // squared difference in units of the noise's
 constexpr double movementLimit = 0.5;  // pixels: what alarms say that a camera may be off by
@@ -47,6 +48,9 @@ Alarm alarm(AlarmKind kind, Message what, Message advice) {
           std::move(advice)};
 }
 
+constexpr auto uncoverLens = RELUCENT_MESSAGE(
+    "alarm.uncover-lens", "uncover the lens, check that the projector is on, then try again");
+
 std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline, double power) {
   if (power > darkShare) return std::nullopt;
   CameraStack seen = now.light.radiance;
@@ -61,9 +65,7 @@ std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline,
         RELUCENT_MESSAGE("alarm.wake-projector",
                          "wake the projector, switch off its and the screen's power saving, then try again"));
   return alarm(AlarmKind::coveredLens,
-               RELUCENT_MESSAGE("alarm.camera-sees-nothing", "the camera sees nothing at all"),
-               RELUCENT_MESSAGE("alarm.uncover-lens",
-                                "uncover the lens, check that the projector is on, then try again"));
+               RELUCENT_MESSAGE("alarm.camera-sees-nothing", "the camera sees nothing at all"), uncoverLens);
 }
 
 /// In units of the typical flood.
@@ -411,6 +413,12 @@ Alarm flickerAlarm(double apart) {
 }
 
 Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views) {
+  if (apart > 1.0 - darkShare)
+    return alarm(AlarmKind::coveredLens,
+                 RELUCENT_MESSAGE("alarm.photograph-dark",
+                                  "one of two photographs of a pattern is dark: the lens was covered, or the "
+                                  "projector's picture gone"),
+                 uncoverLens);
   // The longer one has less noise, which moving it must not smooth away.
   Movement movement = movementBetween(std::vector<ViewPair>{{views.longer, views.shorter}});
   if (!views.isLongerFirst) movement = {-movement.x, -movement.y, -movement.degrees, movement.explains};
@@ -438,6 +446,14 @@ std::optional<Alarm> inspectFloods(const hdr::ProjectedLight& white,
   for (std::size_t camera = 0; camera < references.cameras.devices(); ++camera)
     if (auto found = inspectFullLight(references.cameras, camera, pictures)) return found;
   return std::nullopt;
+}
+
+std::optional<Alarm> inspectDarkness(const Check& first, const photography::References& references) {
+  const hdr::LampLight light(first.light, 1.0);
+  const FirstCheck itself{first.black, light};
+  const double share = lightShare(light, referencePattern(references.projectors), references);
+  if (share > nothingShare) return std::nullopt;
+  return inspectDarkness(first, {references, first.black, itself}, share);
 }
 
 std::optional<Alarm> inspectOrientation(const hdr::ProjectedLight& light, std::size_t projector,

@@ -45,6 +45,9 @@ Reading readingOf(const Check& now, const Baseline& baseline);
 /// the room's light changed, both.
 std::optional<Alarm> inspect(const Check& now, const Baseline& baseline);
 
+/// Whether the first check sees anything of the reference picture, by the floods.
+std::optional<Alarm> inspectDarkness(const Check& first, const photography::References& references);
+
 /// Whether the reference picture on one projector appears at all, and the right way round. Its colours are
 /// unmixed per camera pixel by the floods; the halves' centres of light span a frame, whose handedness tells.
 std::optional<Alarm> inspectOrientation(const hdr::ProjectedLight& light, std::size_t projector,
@@ -67,7 +70,7 @@ inline constexpr double darkShare = 0.2;
 /// What made exposures of one pattern differ by that share of their light. A rigid movement that leaves less
 /// than half of the difference which the brightness of all does not explain: something moved. Places that
 /// differ alike, the mean square over 8x6 of them to a quarter: the light flickers. Neither: either may be,
-/// and both are said.
+/// and both are said. One of them dark: neither is why.
 Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views);
 
 /// Compares all projectors at full light with the first of their floods, colour by colour: what moved, or

@@ -113,6 +113,8 @@ std::optional<Interruption> Watch::begin(const Progress& progress) {
   trusted_ = 0;
   Interruptible<Check> check = photographCheck(progress);
   if (!check) return check.interruption();
+  if (auto dark = inspectDarkness(*check, references_))
+    if (auto interrupted = handle(*dark, 0)) return interrupted;
   if (auto interrupted = inspectProjectors(*check, progress)) return interrupted;
   first_ = {check->black, hdr::LampLight(check->light, 1.0)};
   last_ = beforeLast_ = {shots_.shots(), 1.0};

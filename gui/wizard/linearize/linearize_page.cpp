@@ -71,10 +71,11 @@ StepStatus LinearizePage::status() const {
     return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction())), result_.has_value()};
   switch (session_.progress(calibration::Stage::linearization)) {
     case calibration::StageProgress::done:
-      if (result_ && !result_->additivityError.empty())
-        return {StepState::done, tr("Colours within %1")
-                                     .arg(percentText(*std::max_element(result_->additivityError.begin(),
-                                                                        result_->additivityError.end())))};
+      if (result_ && !result_->additivityError.empty()) {
+        const QString worst = percentText(worstAdditivity());
+        if (!addsUp()) return {StepState::doubtful, tr("Colours off by %1").arg(worst)};
+        return {StepState::done, tr("Colours within %1").arg(worst)};
+      }
       return {StepState::done, tr("Measured")};
     case calibration::StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
@@ -89,6 +90,9 @@ QString LinearizePage::hint() const {
   if (isMeasuring()) return job_.stage();
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (session_.progress(calibration::Stage::linearization) == calibration::StageProgress::done) {
+    if (isSpoilt())
+      return tr(
+          "The photographs contradict each other. See that nothing covers the lens, then measure again.");
     if (!addsUp()) return tr("The colours do not add up. Continuing is recorded in the report.");
     if (auto took = seconds()) return tr("Measured in %1").arg(text(spentDuration(*took)));
   }
@@ -118,14 +122,15 @@ void LinearizePage::updateCommands() {
 
 PageCommand* LinearizePage::primary() const {
   const bool done = session_.progress(calibration::Stage::linearization) == calibration::StageProgress::done;
-  return done && !isMeasuring() ? next_ : measure_;
+  if (!done || isMeasuring()) return measure_;
+  return isSpoilt() ? again_ : next_;
 }
 
 std::vector<PageCommand*> LinearizePage::secondary() const {
   if (isMeasuring()) return {stop_};
   if (session_.mayReturnToEarlier(calibration::Stage::linearization)) return {return_};
   if (session_.progress(calibration::Stage::linearization) != calibration::StageProgress::done) return {};
-  return {again_};
+  return {isSpoilt() ? next_ : again_};
 }
 
 std::optional<double> LinearizePage::progress() const {
@@ -180,11 +185,18 @@ std::vector<double> LinearizePage::exposures() const {
   return checked ? checked->exposures : std::vector<double>();
 }
 
+double LinearizePage::worstAdditivity() const {
+  return result_ && !result_->additivityError.empty() ? std::ranges::max(result_->additivityError) : 0.0;
+}
+
 bool LinearizePage::addsUp() const {
-  if (!result_) return true;
-  double limit = session_.settings().linearization.additivityLimit;
-  return std::all_of(result_->additivityError.begin(), result_->additivityError.end(),
-                     [limit](double error) { return error <= limit; });
+  return worstAdditivity() <= session_.settings().linearization.additivityLimit;
+}
+
+/// Projectors with a white segment add as much light to white again as their colours have, hardly more.
+bool LinearizePage::isSpoilt() const {
+  constexpr double most = 1.5;
+  return worstAdditivity() > most;
 }
 
 void LinearizePage::setLevels(int levels) {

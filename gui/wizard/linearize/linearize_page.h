@@ -55,6 +55,8 @@ class LinearizePage : public DevicePage {
   std::optional<double> blackShare() const;
   /// The colours of a projector do not add up: going on is allowed, and is recorded.
   bool addsUp() const;
+  /// So little that no projector's picture mode is why: photographs were spoilt.
+  bool isSpoilt() const;
 
  protected:
   void updateCommands() override;
@@ -67,6 +69,7 @@ class LinearizePage : public DevicePage {
   void ended();
 
   bool isStale() const;
+  double worstAdditivity() const;
 
   PageCommand *next_, *measure_, *stop_, *again_, *return_, *retry_, *goOn_;
   DeviceLease lease_;

@@ -55,7 +55,12 @@ class TestSentinels : public QObject {
   }
 
   /// Whatever happened, once it is put right and tried again the transport is the same to the bit.
-  void aFaultIsFoundAndLeavesNoTraceAfterRetry_data() { faults_data(); }
+  void aFaultIsFoundAndLeavesNoTraceAfterRetry_data() {
+    faults_data();
+    // It is not the wrong screen whose picture is not seen then.
+    QTest::newRow("covered lens in the first look")
+        << fault(FaultKind::coveredLens, 14) << AlarmKind::coveredLens;
+  }
   void aFaultIsFoundAndLeavesNoTraceAfterRetry() {
     QFETCH(DeviceFault, fault);
     QFETCH(AlarmKind, kind);

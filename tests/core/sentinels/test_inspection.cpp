@@ -236,6 +236,9 @@ class TestInspection : public QObject {
       const Shot shot = twoExposures(movedView(0, 0, 0), movedView(3.0, 0, 0), 0.9, isLongerFirst);
       const Alarm alarm = inspectContradiction(0.1, contradictoryViews(shot, {CameraModel()}).value());
       QCOMPARE(alarm.kind, AlarmKind::moved);
+      // Neither light that flickers nor a movement takes all of it.
+      QCOMPARE(inspectContradiction(0.99, contradictoryViews(shot, {CameraModel()}).value()).kind,
+               AlarmKind::coveredLens);
       QVERIFY2(english(alarm.what).find("shifted by 3.") != std::string::npos ||
                    english(alarm.what).find("shifted by 2.") != std::string::npos,
                english(alarm.what).c_str());

@@ -111,6 +111,39 @@ class TestReadouts : public QObject {
     QCOMPARE(page.exposures(), (std::vector<double>{0.25, 0.5}));
   }
 
+  /// Law: colours that do not add up are no plain tick, and where no projector is why, measuring again is
+  /// what is to be done next.
+  void coloursThatDoNotAddUpAreDoubtful_data() {
+    QTest::addColumn<double>("off");
+    QTest::addColumn<StepState>("state");
+    QTest::addColumn<bool>("isNext");
+    QTest::newRow("they do") << 0.003 << StepState::done << true;
+    QTest::newRow("a white segment") << 0.8 << StepState::doubtful << true;
+    QTest::newRow("the lens was covered") << 4.75 << StepState::doubtful << false;
+  }
+  void coloursThatDoNotAddUpAreDoubtful() {
+    QFETCH(double, off);
+    QFETCH(StepState, state);
+    QFETCH(bool, isNext);
+    own_->begin();
+    LinearizePage page(*session_);
+    page.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring() && page.result(), patience);
+    {
+      CalibrationFolder folder = CalibrationFolder::open(session_->path(), CalibrationFolder::Access::write);
+      const StageResult stored = *folder.latest(Stage::linearization);
+      linearization::Linearization measured = loadLinearization(stored);
+      measured.additivityError.assign(measured.additivityError.size(), off);
+      storeLinearization(folder, stored.inputs, measured, {});
+    }
+    session_->reload();
+    QCOMPARE(page.status().state, state);
+    const QString again = LinearizePage::tr("Measure again");
+    QCOMPARE(page.primary()->text() != again, isNext);
+    QCOMPARE(page.secondary().front()->text() == again, isNext);
+    QVERIFY(page.primary()->isEnabled() && page.secondary().front()->isEnabled());
+  }
+
   /// Law: a view of which no exposure shows much is no plain tick, whoever has kept them.
   void aViewThatIsTooBrightIsDoubtful_data() {
     QTest::addColumn<double>("share");

@@ -7143,6 +7143,18 @@ projector %2</source>
         <source>Another program plays a show of another venue on this projector.</source>
         <translation>يشغّل برنامج آخر عرضًا لموقع آخر على جهاز العرض هذا.</translation>
     </message>
+    <message>
+        <source>Two shows at once</source>
+        <translation>عرضان في آن واحد</translation>
+    </message>
+    <message>
+        <source>The output is open here and in another program: whose picture is seen is not known. End one.</source>
+        <translation>الخرج مفتوح هنا وفي برنامج آخر: لا يُعرف أي صورة تُرى. أنهِ أحدهما.</translation>
+    </message>
+    <message>
+        <source>Perhaps under another program&apos;s picture</source>
+        <translation>ربما تحت صورة برنامج آخر</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6999,6 +6999,18 @@ Projektor %2</translation>
         <source>Another program plays a show of another venue on this projector.</source>
         <translation>Ein anderes Programm spielt auf diesem Projektor eine Show eines anderen Spielorts.</translation>
     </message>
+    <message>
+        <source>Two shows at once</source>
+        <translation>Zwei Shows zugleich</translation>
+    </message>
+    <message>
+        <source>The output is open here and in another program: whose picture is seen is not known. End one.</source>
+        <translation>Die Ausgabe ist hier und in einem anderen Programm offen: Wessen Bild zu sehen ist, ist nicht bekannt. Eine davon beenden.</translation>
+    </message>
+    <message>
+        <source>Perhaps under another program&apos;s picture</source>
+        <translation>Vielleicht unter dem Bild eines anderen Programms</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

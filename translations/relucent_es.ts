@@ -6999,6 +6999,18 @@ proyector %2</translation>
         <source>Another program plays a show of another venue on this projector.</source>
         <translation>Otro programa está reproduciendo un show de otro lugar en este proyector.</translation>
     </message>
+    <message>
+        <source>Two shows at once</source>
+        <translation>Dos shows a la vez</translation>
+    </message>
+    <message>
+        <source>The output is open here and in another program: whose picture is seen is not known. End one.</source>
+        <translation>La salida está abierta aquí y en otro programa: no se sabe qué imagen se ve. Termine una.</translation>
+    </message>
+    <message>
+        <source>Perhaps under another program&apos;s picture</source>
+        <translation>Quizá debajo de la imagen de otro programa</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

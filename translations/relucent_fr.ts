@@ -638,7 +638,7 @@
     <name>alarm.photograph-dark</name>
     <message>
         <source>one of two photographs of a pattern is dark: the lens was covered, or the projector&apos;s picture gone</source>
-        <translation>l’une des deux photos d’un motif est sombre : l’objectif était masqué, ou l’image du projecteur absente</translation>
+        <translation>l’une des deux photos d’un motif est sombre&#xa0;: l’objectif était masqué, ou l’image du projecteur absente</translation>
     </message>
 </context>
 <context>
@@ -6998,6 +6998,18 @@ projecteur %2</translation>
     <message>
         <source>Another program plays a show of another venue on this projector.</source>
         <translation>Un autre programme diffuse un autre lieu sur ce projecteur.</translation>
+    </message>
+    <message>
+        <source>Two shows at once</source>
+        <translation>Deux diffusions à la fois</translation>
+    </message>
+    <message>
+        <source>The output is open here and in another program: whose picture is seen is not known. End one.</source>
+        <translation>La sortie est ouverte ici et dans un autre programme : on ne sait pas quelle image se voit. Terminez-en une.</translation>
+    </message>
+    <message>
+        <source>Perhaps under another program&apos;s picture</source>
+        <translation>Peut-être sous l’image d’un autre programme</translation>
     </message>
 </context>
 <context>

@@ -6999,6 +6999,18 @@ proiettore %2</translation>
         <source>Another program plays a show of another venue on this projector.</source>
         <translation>Un altro programma sta riproducendo uno show di un altro luogo su questo proiettore.</translation>
     </message>
+    <message>
+        <source>Two shows at once</source>
+        <translation>Due show insieme</translation>
+    </message>
+    <message>
+        <source>The output is open here and in another program: whose picture is seen is not known. End one.</source>
+        <translation>L’uscita è aperta qui e in un altro programma: non si sa quale immagine si veda. Terminarne una.</translation>
+    </message>
+    <message>
+        <source>Perhaps under another program&apos;s picture</source>
+        <translation>Forse sotto l’immagine di un altro programma</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6963,6 +6963,18 @@ projector %2</source>
         <source>Another program plays a show of another venue on this projector.</source>
         <translation>別のプログラムがこのプロジェクターで別の会場のショーを再生しています。</translation>
     </message>
+    <message>
+        <source>Two shows at once</source>
+        <translation>2 つのショーが同時</translation>
+    </message>
+    <message>
+        <source>The output is open here and in another program: whose picture is seen is not known. End one.</source>
+        <translation>出力はここと別のプログラムの両方で開いています：どちらの画像が見えているか分かりません。一方を終了してください。</translation>
+    </message>
+    <message>
+        <source>Perhaps under another program&apos;s picture</source>
+        <translation>別のプログラムの画像の下かもしれません</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

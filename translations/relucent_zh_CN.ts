@@ -6963,6 +6963,18 @@ projector %2</source>
         <source>Another program plays a show of another venue on this projector.</source>
         <translation>另一个程序正在此投影机上播放另一场地的节目。</translation>
     </message>
+    <message>
+        <source>Two shows at once</source>
+        <translation>两个节目同时进行</translation>
+    </message>
+    <message>
+        <source>The output is open here and in another program: whose picture is seen is not known. End one.</source>
+        <translation>此处与另一个程序都打开了输出：不知道看到的是谁的画面。请结束其中一个。</translation>
+    </message>
+    <message>
+        <source>Perhaps under another program&apos;s picture</source>
+        <translation>可能在另一个程序的画面之下</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -256,8 +256,8 @@ void MainWindow::followFocus(QWidget* before, QWidget* now) {
         if (focusWidget() != stages_) return;
         focusFirst(stages_);  // where nothing takes it, the stage itself has it
         // Of a button elsewhere that began no work, the focus is not to come back on what leads on.
-        hasWorked_ = wizard_.currentPage().progress().has_value();
-        focusLent_ = isCommand || hasWorked_ ? focusWidget() : nullptr;
+        const bool isAtWork = wizard_.currentPage().progress().has_value();
+        focusLent_ = isCommand || isAtWork ? focusWidget() : nullptr;
         returnFocus();
       },
       Qt::QueuedConnection);

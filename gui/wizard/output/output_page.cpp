@@ -131,6 +131,7 @@ StepStatus OutputPage::status() const {
   if (isScreenLost()) return {StepState::busy, tr("Screen unplugged"), false, true};
   if (const QString work = photographicWork(); !work.isEmpty()) return {StepState::busy, work};
   if (isCovered()) return {StepState::busy, tr("Covered by %1").arg(session_.devicesUserName())};
+  if (isContested()) return {StepState::busy, tr("Two shows at once"), false, true};
   if (playsEarlier()) return {StepState::busy, tr("Another correction"), false, true};
   if (isOpen() && isDoubted()) return {StepState::busy, tr("Not as predicted"), false, true};
   if (isOpen())
@@ -143,6 +144,11 @@ StepStatus OutputPage::status() const {
   if (proof_.isOutOfDate()) return {StepState::outOfDate, tr("Proof out of date")};
   if (isInstalled()) return {StepState::done, tr("Show installed")};
   return {};
+}
+
+/// Two windows are on the projectors, of which the desktop shows one.
+bool OutputPage::isContested() const {
+  return isOpen() && session_.isShownElsewhere() && !session_.isSimulated();
 }
 
 /// What is done by photographs now, for the rail; empty: nothing.
@@ -193,6 +199,8 @@ QString OutputPage::hint() const {
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
   if (isScreenLost()) return tr("Waiting for the projector's screen to come back.");
   if (auto missing = projectorWithoutScreen()) return screenHint(*missing);
+  if (isContested())
+    return tr("The output is open here and in another program: whose picture is seen is not known. End one.");
   if (playsEarlier()) return tr("What plays is not what was measured or chosen last. Show that first.");
   if (isOpen()) {
     switch (proof_.next()) {

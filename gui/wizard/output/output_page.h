@@ -114,6 +114,8 @@ class OutputPage : public DevicePage {
   void close();
   /// What is measured or chosen has become newer than what the output was opened with and goes on playing.
   bool playsEarlier() const { return isOpen() && playsFrom_ != session_.shownFrom(); }
+  /// Another program plays on the same projectors while the output is open.
+  bool isContested() const;
   /// Opens the output again, with what is newest.
   void renew();
 

@@ -314,6 +314,7 @@ class OutputStage : public QWidget {
   QString figures() const {
     PlayerStatistics s = page_.projection().statistics();
     if (!page_.isOpen() || !page_.missingScreen().isEmpty() || page_.isCovered() || s.frames == 0) return {};
+    if (page_.isContested()) return OutputPage::tr("Perhaps under another program's picture");
     if (page_.playsEarlier()) return OutputPage::tr("Another correction");
     if (page_.isBlack()) return OutputPage::tr("Black");
     if (page_.showsChart()) return OutputPage::tr("Test chart");

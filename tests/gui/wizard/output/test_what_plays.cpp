@@ -114,6 +114,11 @@ class TestWhatPlays : public QObject {
           QVERIFY(page_->hint().contains("Another program"));
           QVERIFY(page_->whatIsProjected().contains("Another program"));
           QVERIFY(!page_->status().result.isEmpty());
+        } else {
+          // Neither is known to be seen.
+          QVERIFY(page_->isContested() && page_->status().isHeldUp);
+          QCOMPARE(page_->status().result, OutputPage::tr("Two shows at once"));
+          QVERIFY2(page_->hint().contains("another program"), qPrintable(page_->hint()));
         }
         QSignalSpy asked(page_.get(), &PageModel::failed);
         page_->banner()->command->trigger();

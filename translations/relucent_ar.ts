@@ -7155,6 +7155,10 @@ projector %2</source>
         <source>Perhaps under another program&apos;s picture</source>
         <translation>ربما تحت صورة برنامج آخر</translation>
     </message>
+    <message>
+        <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
+        <translation>أسود: لوحة الاختبار قائمة دون أن تُرى. T يعرض التالية ثم قائمة التشغيل.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9870,6 +9874,14 @@ projector %2</source>
     <message>
         <source>Continue</source>
         <translation>متابعة</translation>
+    </message>
+    <message>
+        <source>A show plays on %1</source>
+        <translation>عرض قيد التشغيل على %1</translation>
+    </message>
+    <message>
+        <source>Another program shows it. End it before anything is measured there: Camera has the button.</source>
+        <translation>يعرضه برنامج آخر. أنهِه قبل أي قياس هناك: الزر في «الكاميرا».</translation>
     </message>
 </context>
 <context>

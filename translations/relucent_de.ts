@@ -7011,6 +7011,10 @@ Projektor %2</translation>
         <source>Perhaps under another program&apos;s picture</source>
         <translation>Vielleicht unter dem Bild eines anderen Programms</translation>
     </message>
+    <message>
+        <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
+        <translation>Schwarz: Das Testbild steht ungesehen. T zeigt das nächste, dann die Wiedergabeliste.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9670,6 +9674,14 @@ Projektor %2</translation>
     <message>
         <source>Continue</source>
         <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>A show plays on %1</source>
+        <translation>Auf %1 läuft eine Show</translation>
+    </message>
+    <message>
+        <source>Another program shows it. End it before anything is measured there: Camera has the button.</source>
+        <translation>Ein anderes Programm zeigt sie. Vor dem Messen dort beenden: Die Schaltfläche steht unter „Kamera“.</translation>
     </message>
 </context>
 <context>

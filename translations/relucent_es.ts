@@ -7011,6 +7011,10 @@ proyector %2</translation>
         <source>Perhaps under another program&apos;s picture</source>
         <translation>Quizá debajo de la imagen de otro programa</translation>
     </message>
+    <message>
+        <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
+        <translation>Negro: la carta de ajuste sigue ahí sin verse. T muestra la siguiente y luego la lista.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9670,6 +9674,14 @@ proyector %2</translation>
     <message>
         <source>Continue</source>
         <translation>Continuar</translation>
+    </message>
+    <message>
+        <source>A show plays on %1</source>
+        <translation>Se reproduce un show en %1</translation>
+    </message>
+    <message>
+        <source>Another program shows it. End it before anything is measured there: Camera has the button.</source>
+        <translation>La muestra otro programa. Termínelo antes de medir allí: el botón está en Cámara.</translation>
     </message>
 </context>
 <context>

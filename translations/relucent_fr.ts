@@ -7005,11 +7005,15 @@ projecteur %2</translation>
     </message>
     <message>
         <source>The output is open here and in another program: whose picture is seen is not known. End one.</source>
-        <translation>La sortie est ouverte ici et dans un autre programme : on ne sait pas quelle image se voit. Terminez-en une.</translation>
+        <translation>La sortie est ouverte ici et dans un autre programme&#xa0;: on ne sait pas quelle image se voit. Terminez-en une.</translation>
     </message>
     <message>
         <source>Perhaps under another program&apos;s picture</source>
         <translation>Peut-être sous l’image d’un autre programme</translation>
+    </message>
+    <message>
+        <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
+        <translation>Noir : la mire reste, invisible. T affiche la suivante, puis la liste.</translation>
     </message>
 </context>
 <context>
@@ -9670,6 +9674,14 @@ projecteur %2</translation>
     <message>
         <source>Continue</source>
         <translation>Continuer</translation>
+    </message>
+    <message>
+        <source>A show plays on %1</source>
+        <translation>Une diffusion est en cours sur %1</translation>
+    </message>
+    <message>
+        <source>Another program shows it. End it before anything is measured there: Camera has the button.</source>
+        <translation>Un autre programme l’affiche. Arrêtez-la avant d’y mesurer : le bouton est sous Caméra.</translation>
     </message>
 </context>
 <context>

@@ -7011,6 +7011,10 @@ proiettore %2</translation>
         <source>Perhaps under another program&apos;s picture</source>
         <translation>Forse sotto l’immagine di un altro programma</translation>
     </message>
+    <message>
+        <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
+        <translation>Nero: la carta di prova resta, non vista. T mostra la successiva, poi la lista.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9670,6 +9674,14 @@ proiettore %2</translation>
     <message>
         <source>Continue</source>
         <translation>Continua</translation>
+    </message>
+    <message>
+        <source>A show plays on %1</source>
+        <translation>È in corso uno show su %1</translation>
+    </message>
+    <message>
+        <source>Another program shows it. End it before anything is measured there: Camera has the button.</source>
+        <translation>Lo mostra un altro programma. Terminarlo prima di misurare lì: il pulsante è in Fotocamera.</translation>
     </message>
 </context>
 <context>

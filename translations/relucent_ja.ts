@@ -6975,6 +6975,10 @@ projector %2</source>
         <source>Perhaps under another program&apos;s picture</source>
         <translation>別のプログラムの画像の下かもしれません</translation>
     </message>
+    <message>
+        <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
+        <translation>黒：テストチャートが見えないまま残っています。T で次のチャート、その後は再生リストに戻ります。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9620,6 +9624,14 @@ projector %2</source>
     <message>
         <source>Continue</source>
         <translation>続ける</translation>
+    </message>
+    <message>
+        <source>A show plays on %1</source>
+        <translation>%1 でショーを再生中</translation>
+    </message>
+    <message>
+        <source>Another program shows it. End it before anything is measured there: Camera has the button.</source>
+        <translation>別のプログラムが表示しています。そこで測定する前に終了してください。ボタンは「カメラ」にあります。</translation>
     </message>
 </context>
 <context>

@@ -6975,6 +6975,10 @@ projector %2</source>
         <source>Perhaps under another program&apos;s picture</source>
         <translation>可能在另一个程序的画面之下</translation>
     </message>
+    <message>
+        <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
+        <translation>黑屏：测试图仍在但看不到。按 T 显示下一张，然后是播放列表。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -9620,6 +9624,14 @@ projector %2</source>
     <message>
         <source>Continue</source>
         <translation>继续</translation>
+    </message>
+    <message>
+        <source>A show plays on %1</source>
+        <translation>%1 上正在播放节目</translation>
+    </message>
+    <message>
+        <source>Another program shows it. End it before anything is measured there: Camera has the button.</source>
+        <translation>另一个程序正在显示。在那里测量之前请先结束它：按钮在“相机”页。</translation>
     </message>
 </context>
 <context>

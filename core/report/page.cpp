@@ -92,6 +92,16 @@ std::string repairSentence(const ReportRepair& repair) {
       localTime(repair.when), what, repair.deltaEBefore, repair.deltaEAfter);
 }
 
+/// With a capital, but for a device's address, "genicam:RL01".
+std::string fullSentence(const Message& message) {
+  std::string text = englishSentence(message);
+  const std::size_t colon = text.find(':'), space = text.find(' ');
+  const bool isAddress = colon != std::string::npos && colon + 1 < space;
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z' && !isAddress)
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
 /// What stands out, and what was proved.
 void setFindings(Data& page, const ReportData& data) {
   Data warnings(Data::type::list), assurances(Data::type::list);
@@ -99,7 +109,7 @@ void setFindings(Data& page, const ReportData& data) {
   addVerdicts(data, warnings, assurances);
   if (data.repaired) assurances << Data(repairSentence(*data.repaired));
   for (const Message& finding : data.result.findings)
-    if (!isAboutStopping(finding)) warnings << Data(englishSentence(finding));
+    if (!isAboutStopping(finding)) warnings << Data(fullSentence(finding));
   if (const int blocks = data.stoppedAt; blocks > 0)
     warnings << Data(fmt::format(
         "Measured coarsely: down to blocks of {0} × {0} pixels of the projector. Finer detail of the "

@@ -79,6 +79,7 @@ QWidget* outlookPart(AcquirePage& model) {
     if (!outlook) return;
     now->setValue(qualityText(outlook->now));
     whole->setValue(wholeText(outlook->whole));
+    whole->setVisible(!model.isStopping());  // it will not come to that
   };
   refreshOn(model, part, refresh, &AcquirePage::progressChanged, &AcquirePage::resultChanged);
   return part;

@@ -255,7 +255,10 @@ bool OutputPage::isJudged() const {
 
 /// While nothing stands against the show: what it does, in one voice with the rail.
 QString OutputPage::playingHint() const {
-  if (isBlack() && isFrozen()) return tr("Black: the frozen picture stands unseen until you show it again.");
+  if (isBlack() && isFrozen() && !showsChart())
+    return tr("Black: the frozen picture stands unseen until you show it again.");
+  if (isBlack() && showsChart())
+    return tr("Black: the test chart stands unseen. T shows the next one, then the playlist.");
   if (isBlack()) return tr("Black: the show goes on unseen until you show it again.");
   if (showsChart()) return tr("A test chart is on the surface. T shows the next one, then the playlist.");
   if (isFrozen()) return tr("Frozen: this picture stands until you press Play.");

@@ -116,7 +116,9 @@ void OutputProof::look() {
 const pipeline::DriftRecord* OutputProof::newestDrift() const {
   if (!drift_) return nullptr;
   const QDateTime checked = QDateTime::fromString(QString::fromStdString(drift_->checked), Qt::ISODate);
-  const bool isOlder = proof_ && checked.toSecsSinceEpoch() < proof_->taken.toSecsSinceEpoch();
+  // Than a photograph of this measurement: one of a repair from which somebody went back says nothing of it.
+  const bool isOlder =
+      proof_ && !isOutOfDate() && checked.toSecsSinceEpoch() < proof_->taken.toSecsSinceEpoch();
   return isOlder ? nullptr : &*drift_;
 }
 

@@ -5,6 +5,7 @@
 #include <QFileInfo>
 #include <QStandardPaths>
 
+#include "output/venue_use.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/devices/command/command_consent.h"
 #include "relucent/pipeline/command_devices.h"
@@ -183,6 +184,13 @@ std::vector<PageCommand*> VenuePage::secondary() const {
 }
 
 std::optional<Banner> VenuePage::banner() const {
+  if (mode_ == Mode::devices)
+    for (const pipeline::ScreenRigSettings::Screen& screen : projectors())
+      if (const QString connector = QString::fromStdString(screen.display.connector);
+          VenueUse::isTaken(VenueUse::ofScreen(connector), VenueUse::Way::screen))
+        return Banner{
+            Banner::Kind::amber, tr("A show plays on %1").arg(connector),
+            tr("Another program shows it. End it before anything is measured there: Camera has the button.")};
   if (mode_ != Mode::start || !openScreen_.isChangeable() || !openScreen_.isMissing()) return std::nullopt;
   return Banner{
       Banner::Kind::amber,

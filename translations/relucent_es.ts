@@ -7013,7 +7013,7 @@ proyector %2</translation>
     </message>
     <message>
         <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
-        <translation>Negro: la carta de ajuste sigue ahí sin verse. T muestra la siguiente y luego la lista.</translation>
+        <translation>Negro: la carta de prueba sigue ahí sin verse. T muestra la siguiente y luego la lista.</translation>
     </message>
 </context>
 <context>

@@ -7013,7 +7013,7 @@ proiettore %2</translation>
     </message>
     <message>
         <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
-        <translation>Nero: la carta di prova resta, non vista. T mostra la successiva, poi la lista.</translation>
+        <translation>Nero: la carta di test resta, non vista. T mostra la successiva, poi la lista.</translation>
     </message>
 </context>
 <context>

@@ -424,6 +424,9 @@ class TestWhatPlays : public QObject {
     QVERIFY(!page_->proof().drift() && page_->proof().isOutOfDate());
     QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !page_->playsEarlier(), patience);
     QCOMPARE(page_->proof().next(), OutputProof::Next::photograph);
+    // Of the repaired one, which is not in use after going back.
+    page_->verify();
+    QTRY_VERIFY_WITH_TIMEOUT(!page_->proof().isOutOfDate() && isIdle(), patience);
     QSignalSpy asked(page_.get(), &PageModel::failed);
     page_->askToUndoRepair();
     QCOMPARE(asked.size(), 1);
@@ -432,10 +435,10 @@ class TestWhatPlays : public QObject {
     question.goOn->trigger();
     QVERIFY(!question.reason);
     QCOMPARE(session().correction(), before);
-    QVERIFY(!page_->proof().repairNote() && !page_->proof().isOutOfDate());
+    QVERIFY(!page_->proof().repairNote() && page_->proof().isOutOfDate());
     QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !page_->playsEarlier(), patience);
-    // What was found of it before holds of it again.
-    QVERIFY(page_->proof().drift().has_value());
+    // What was found of it before holds of it again, and is said.
+    QVERIFY(page_->proof().drift().has_value() && page_->proof().newestDrift() != nullptr);
     QCOMPARE(page_->proof().next(), OutputProof::Next::repair);
   }
 

@@ -248,16 +248,16 @@ void MainWindow::followFocus(QWidget* before, QWidget* now) {
     return;
   }
   stages_->setFocus();
-  const bool isCommand = actions_->isAncestorOf(before);
+  const bool isOffer = banner_->isAncestorOf(before);
   // Once the stage knows what has ended, unless another page has the focus by then.
   QMetaObject::invokeMethod(
       this,
-      [this, isCommand] {
+      [this, isOffer] {
         if (focusWidget() != stages_) return;
         focusFirst(stages_);  // where nothing takes it, the stage itself has it
-        // Of a button elsewhere that began no work, the focus is not to come back on what leads on.
+        // After a banner's offer that began no work, the focus is not to come back on what leads on.
         const bool isAtWork = wizard_.currentPage().progress().has_value();
-        focusLent_ = isCommand || isAtWork ? focusWidget() : nullptr;
+        focusLent_ = isOffer && !isAtWork ? nullptr : focusWidget();
         returnFocus();
       },
       Qt::QueuedConnection);

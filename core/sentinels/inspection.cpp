@@ -413,12 +413,6 @@ Alarm flickerAlarm(double apart) {
 }
 
 Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views) {
-  if (apart > 1.0 - darkShare)
-    return alarm(AlarmKind::coveredLens,
-                 RELUCENT_MESSAGE("alarm.photograph-dark",
-                                  "one of two photographs of a pattern is dark: the lens was covered, or the "
-                                  "projector's picture gone"),
-                 uncoverLens);
   // The longer one has less noise, which moving it must not smooth away.
   Movement movement = movementBetween(std::vector<ViewPair>{{views.longer, views.shorter}});
   if (!views.isLongerFirst) movement = {-movement.x, -movement.y, -movement.degrees, movement.explains};
@@ -426,6 +420,12 @@ Alarm inspectContradiction(double apart, const photography::ContradictoryViews& 
     return movedAlarm(
         views.camera, movement,
         RELUCENT_MESSAGE("alarm.put-it-back", "put it back to within half a pixel, then try again"));
+  if (apart > 1.0 - darkShare)
+    return alarm(AlarmKind::coveredLens,
+                 RELUCENT_MESSAGE("alarm.photograph-dark",
+                                  "one of two photographs of a pattern is dark: the lens was covered, or the "
+                                  "projector's picture gone"),
+                 uncoverLens);
   if (isOfBrightness(views)) return flickerAlarm(apart);
   return alarm(
       AlarmKind::unsteady,
@@ -448,12 +448,13 @@ std::optional<Alarm> inspectFloods(const hdr::ProjectedLight& white,
   return std::nullopt;
 }
 
-std::optional<Alarm> inspectDarkness(const Check& first, const photography::References& references) {
-  const hdr::LampLight light(first.light, 1.0);
-  const FirstCheck itself{first.black, light};
-  const double share = lightShare(light, referencePattern(references.projectors), references);
+std::optional<Alarm> inspectDarkness(const Check& seen, const ProjectorStack& pattern,
+                                     const photography::References& references) {
+  const hdr::LampLight light(seen.light, 1.0);
+  const double share = lightShare(light, pattern, references);
   if (share > nothingShare) return std::nullopt;
-  return inspectDarkness(first, {references, first.black, itself}, share);
+  const FirstCheck itself{seen.black, light};
+  return inspectDarkness(seen, Baseline{references, seen.black, itself}, share);
 }
 
 std::optional<Alarm> inspectOrientation(const hdr::ProjectedLight& light, std::size_t projector,

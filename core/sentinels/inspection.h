@@ -45,8 +45,9 @@ Reading readingOf(const Check& now, const Baseline& baseline);
 /// the room's light changed, both.
 std::optional<Alarm> inspect(const Check& now, const Baseline& baseline);
 
-/// Whether the first check sees anything of the reference picture, by the floods.
-std::optional<Alarm> inspectDarkness(const Check& first, const photography::References& references);
+/// Whether anything is seen of a pattern, by the floods: before there is a check to compare with.
+std::optional<Alarm> inspectDarkness(const Check& seen, const ProjectorStack& pattern,
+                                     const photography::References& references);
 
 /// Whether the reference picture on one projector appears at all, and the right way round. Its colours are
 /// unmixed per camera pixel by the floods; the halves' centres of light span a frame, whose handedness tells.

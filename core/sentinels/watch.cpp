@@ -103,7 +103,8 @@ std::optional<Interruption> Watch::inspectReferences(const Check& check, const P
   if (!seen) return seen.interruption();
   // Less the black just before: the room's light may have changed since the floods.
   const hdr::ProjectedLight light(*std::move(seen), check.black);
-  std::optional<Alarm> alarm = inspectFloods(light, references_);
+  std::optional<Alarm> alarm = inspectDarkness({check.black, light}, pattern, references_);
+  if (!alarm) alarm = inspectFloods(light, references_);
   // What moved among the floods makes their sums differ too.
   if (!alarm && references_.flicker > roundsLimit) alarm = flickerAlarm(references_.flicker);
   return alarm ? handle(*alarm, 0) : std::nullopt;
@@ -113,7 +114,7 @@ std::optional<Interruption> Watch::begin(const Progress& progress) {
   trusted_ = 0;
   Interruptible<Check> check = photographCheck(progress);
   if (!check) return check.interruption();
-  if (auto dark = inspectDarkness(*check, references_))
+  if (auto dark = inspectDarkness(*check, referencePattern(references_.projectors), references_))
     if (auto interrupted = handle(*dark, 0)) return interrupted;
   if (auto interrupted = inspectProjectors(*check, progress)) return interrupted;
   first_ = {check->black, hdr::LampLight(check->light, 1.0)};

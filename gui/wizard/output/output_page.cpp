@@ -148,7 +148,7 @@ StepStatus OutputPage::status() const {
 
 /// Two windows are on the projectors, of which the desktop shows one.
 bool OutputPage::isContested() const {
-  return isOpen() && session_.isShownElsewhere() && !session_.isSimulated();
+  return isOpen() && session_.isShownElsewhere() && !isOnPageOnly();
 }
 
 /// What is done by photographs now, for the rail; empty: nothing.

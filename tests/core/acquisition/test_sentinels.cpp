@@ -57,8 +57,10 @@ class TestSentinels : public QObject {
   /// Whatever happened, once it is put right and tried again the transport is the same to the bit.
   void aFaultIsFoundAndLeavesNoTraceAfterRetry_data() {
     faults_data();
-    // It is not the wrong screen whose picture is not seen then.
+    // It is not the wrong screen whose picture is not seen then, and nothing that stands in the view.
     QTest::newRow("covered lens in the first look")
+        << fault(FaultKind::coveredLens, 13) << AlarmKind::coveredLens;
+    QTest::newRow("covered lens at full light")
         << fault(FaultKind::coveredLens, 14) << AlarmKind::coveredLens;
   }
   void aFaultIsFoundAndLeavesNoTraceAfterRetry() {

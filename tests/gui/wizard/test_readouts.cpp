@@ -136,8 +136,8 @@ class TestReadouts : public QObject {
       measured.additivityError.assign(measured.additivityError.size(), off);
       storeLinearization(folder, stored.inputs, measured, {});
     }
-    session_->reload();
-    QCOMPARE(page.status().state, state);
+    session_->open(session_->path());
+    QTRY_COMPARE(page.status().state, state);
     const QString again = LinearizePage::tr("Measure again");
     QCOMPARE(page.primary()->text() != again, isNext);
     QCOMPARE(page.secondary().front()->text() == again, isNext);

@@ -236,15 +236,17 @@ class TestInspection : public QObject {
       const Shot shot = twoExposures(movedView(0, 0, 0), movedView(3.0, 0, 0), 0.9, isLongerFirst);
       const Alarm alarm = inspectContradiction(0.1, contradictoryViews(shot, {CameraModel()}).value());
       QCOMPARE(alarm.kind, AlarmKind::moved);
-      // Neither light that flickers nor a movement takes all of it.
+      QVERIFY2(english(alarm.what).find("shifted by 3.") != std::string::npos ||
+                   english(alarm.what).find("shifted by 2.") != std::string::npos,
+               english(alarm.what).c_str());
+      // Neither light that flickers nor a movement takes all of it. Where the longer one is dark, nothing of
+      // it is bright enough to be compared: the whole photograph is dark then, see unlessDark().
+      if (!isLongerFirst) continue;
       Image dark = movedView(0, 0, 0);
       for (float& value : dark.data()) value *= 1e-3f;
       const Shot covered = twoExposures(movedView(0, 0, 0), dark, 0.9, isLongerFirst);
       QCOMPARE(inspectContradiction(0.99, contradictoryViews(covered, {CameraModel()}).value()).kind,
                AlarmKind::coveredLens);
-      QVERIFY2(english(alarm.what).find("shifted by 3.") != std::string::npos ||
-                   english(alarm.what).find("shifted by 2.") != std::string::npos,
-               english(alarm.what).c_str());
     }
   }
 };

@@ -12,7 +12,7 @@ namespace relucent::charts {
 namespace {
 
 constexpr double numberHeight = 14.0, digitWidth = 7.0;  // of letters 11 pixels high: Inter's widest digits
-constexpr double signWidth = 12.0;                       // of what is as wide as high, in a legend
+constexpr double fullWidth = 12.0;                       // of full-width characters in a legend
 
 std::string open(std::string_view style, Extent extent, const std::string& title) {
   return fmt::format(
@@ -63,13 +63,13 @@ std::string hexOf(const image::Rgb8& colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
 }
 
-/// By its letters, whatever their number of bytes in UTF-8. From U+3000 on, where it takes three and more,
-/// are the signs of Chinese, Japanese and Korean, as wide as they are high.
+/// By its characters, whatever their number of bytes in UTF-8. From U+3000 on are those of Chinese, Japanese
+/// and Korean, which are full-width: as wide as they are high.
 double widthOf(std::string_view words) {
   double width = 0.0;
   for (const char c : words) {
     const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xC0U) != 0x80U) width += byte < 0xE3U ? digitWidth : signWidth;
+    if ((byte & 0xC0U) != 0x80U) width += byte < 0xE3U ? digitWidth : fullWidth;
   }
   return width;
 }

@@ -111,7 +111,8 @@ float Compensator::bestBrightness(const Target& target) const {
     const std::size_t begin = 3 * cameras.offset(camera), end = begin + 3 * cameras.size(camera).count();
     for (std::size_t i = begin; i < end; ++i) {
       if (!target.inside[i / 3] || !venue_.usable[i / 3]) continue;
-      const double weight = ofView * static_cast<double>(unmaskedShare(target, i / 3));
+      const double weight =
+          ofView * static_cast<double>(relianceOn(venue_, i / 3) * unmaskedShare(target, i / 3));
       double light = static_cast<double>(flood[i]) * static_cast<double>(target.content[i]);
       wanted += weight * light * static_cast<double>(target.asked[i]);
       seen += weight * light * light;

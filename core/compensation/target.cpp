@@ -21,7 +21,8 @@ void checkShapes(const image::Image& content, const MeasuredVenue& venue) {
   std::size_t pixels = venue.transport.cameras().count();
   require(venue.black.size() == 3 * pixels && venue.flood.size() == 3 * pixels &&
               venue.usable.size() == pixels && (venue.direct.empty() || venue.direct.size() == pixels) &&
-              (venue.views.empty() || venue.views.size() == pixels),
+              (venue.views.empty() || venue.views.size() == pixels) &&
+              (venue.trust.empty() || venue.trust.size() == pixels),
           "{} black, {} flood values and {} flags for {} camera pixels", venue.black.size(),
           venue.flood.size(), venue.usable.size(), pixels);
   require(!content.empty() && content.channels() == 3, "content of {} channels; three are needed",
@@ -424,6 +425,7 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
     if (settings.objective == Objective::seen)
       asked = held(asked, Eigen::Vector3f::Zero(), flood.cwiseMax(0.0f), settings.clipping);
     if (!venue.usable[i]) return;
+    weight *= relianceOn(venue, i);
     bool reachable =
         (wanted.array() >= black.array()).all() && (wanted.array() <= (black + flood).array()).all();
     target.reachable[i] = reachable;

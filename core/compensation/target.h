@@ -34,7 +34,16 @@ struct MeasuredVenue {
   /// T as it was measured, by which predict() judges what a threshold costs. Null: `transport`, of which
   /// nothing is cut, or which is believed.
   std::shared_ptr<const transport::TransportMatrix> uncut{};
+  /// Per camera pixel, 0 to 1: how far its row of T is relied on, see trustIn(). Empty: all of them as far as
+  /// can be.
+  std::vector<float> trust{};
 };
+
+/// How far a camera pixel is relied on: 0 where it is not usable, else its trust.
+inline float relianceOn(const MeasuredVenue& venue, std::size_t pixel) {
+  if (venue.usable[pixel] == 0) return 0.0f;
+  return venue.trust.empty() ? 1.0f : venue.trust[pixel];
+}
 
 /// Per pixel of all cameras: usable, and directly lit.
 CameraMask seesProjection(const MeasuredVenue& venue);
@@ -110,7 +119,8 @@ struct Target {
   CameraMask inside;     // per camera pixel: the content covers it, and no mask all of it
   CameraMask reachable;  // per camera pixel inside: e <= wanted <= T 1 + e in all channels
   CameraStack asked;     // what the solve asks for, less e; Objective::seen: held between 0 and the flood
-  /// Per camera pixel: its view's inside, less where unreachable, 0 where unusable; times its sensitivity().
+  /// Per camera pixel: its view's inside, less where unreachable, 0 where unusable; times its sensitivity()
+  /// and how far its row of T is relied on.
   std::vector<float> weight;
   std::vector<float> windowsWeight;  // the same without sensitivity, for what M corrects
   std::array<float, 3> white{};      // wanted signal of the content's white: the peak for PSNR

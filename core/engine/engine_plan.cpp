@@ -21,15 +21,15 @@ void checkFinite(const Stack& values, const char* what) {
                   RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 }
 
-/// Per camera pixel the weight of its view, 0 where it is not usable.
+/// Per camera pixel the weight of its view as far as its row of T is relied on, 0 where it is not usable.
 std::vector<float> weightsOf(const compensation::MeasuredVenue& venue, const compensation::Target& target) {
   const Rasters& cameras = venue.transport.cameras();
   std::vector<float> weight(cameras.count());
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const std::size_t begin = cameras.offset(camera), end = begin + cameras.size(camera).count();
     for (std::size_t i = begin; i < end; ++i)
-      weight[i] =
-          venue.usable[i] != 0 ? target.viewWeight[camera] * compensation::unmaskedShare(target, i) : 0.0f;
+      weight[i] = target.viewWeight[camera] * compensation::relianceOn(venue, i) *
+                  compensation::unmaskedShare(target, i);
   }
   return weight;
 }

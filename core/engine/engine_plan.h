@@ -57,7 +57,7 @@ struct EngineContent {
   ProjectorMask free;  // per projector pixel: it belongs to the content; the others are black
   std::vector<std::int32_t> brightest;  // i*(j), see contentCorrespondence()
   CameraStack lit;                // camera stack: the signal with all free projector pixels at full drive
-  std::vector<float> weight;      // per camera pixel: of its view, the largest 1; 0 where it is not usable
+  std::vector<float> weight;      // per camera pixel: of its view, at most 1, by its trust; 0 where unusable
   std::vector<float> viewWeight;  // per camera, of its view; the largest is 1
   std::vector<std::optional<compensation::Placement>> placements;  // as Target's
   std::uint64_t freeVersion = 0;  // another one where `free`, `brightest` and `lit` have changed

@@ -78,7 +78,7 @@ void ViewFollower::follow(std::span<const double> weights, EngineContent& conten
     const std::size_t begin = cameras.offset(camera), end = begin + cameras.size(camera).count();
     parallelFor(begin, end, 16384, [&](std::size_t i) {
       content.weight[i] =
-          engine_.venue.usable[i] != 0 ? content.viewWeight[camera] * content.unmaskedShare(i) : 0.0f;
+          content.viewWeight[camera] * compensation::relianceOn(engine_.venue, i) * content.unmaskedShare(i);
     });
   }
   const Lit& lit = litFor(asked);

@@ -12,6 +12,7 @@
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/compensation/direct_light.h"
+#include "relucent/compensation/row_trust.h"
 #include "relucent/pipeline/kept_windows.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
@@ -81,12 +82,17 @@ CameraMask usablePixels(const transport::Acquisition& acquisition) {
   return usable;
 }
 
+namespace {
+
+compensation::TransportVariance varianceOf(const transport::Acquisition& acquisition) {
+  return {acquisition.blackVariance, acquisition.floodVariance, acquisition.leafVariance};
+}
+
+}  // namespace
+
 AcquisitionFigures figuresOf(const transport::Acquisition& acquisition) {
-  return {acquisition.flagged,
-          {acquisition.blackVariance, acquisition.floodVariance, acquisition.leafVariance},
-          acquisition.unresolvedEnergy,
-          acquisition.verificationError,
-          acquisition.findings};
+  return {acquisition.flagged, varianceOf(acquisition), acquisition.unresolvedEnergy,
+          acquisition.verificationError, acquisition.findings};
 }
 
 compensation::MeasuredVenue measuredVenueOf(const transport::Acquisition& acquisition,
@@ -99,6 +105,7 @@ compensation::MeasuredVenue measuredVenueOf(const transport::Acquisition& acquis
   Progress quiet;
   venue.direct = compensation::directlyLit(compensation::directLooks(venue.transport, {}, quiet));
   venue.views = compensation::viewMap(venue.transport, compensation::seesProjection(venue));
+  venue.trust = compensation::trustIn(venue, varianceOf(acquisition));
   return venue;
 }
 

@@ -59,12 +59,12 @@ vec3 preconditioner(vec4 known) {
   return mix(known.xyz * known.w, known.w > 0.0 ? -known.xyz : vec3(0.0), lessThan(known.xyz, vec3(0.0)));
 }
 
-/// The weight of its view, 0 where it is not usable.
+/// The weight of a camera pixel: that of its view, by what is left of it and how far it is relied on.
 const uint mostViews = 64u;
 #ifdef WEIGHTS
 layout(location = 16) uniform float viewWeight[mostViews];
-float weightOf(float unmasked, float view) {
-  return unmasked * viewWeight[uint(view)];
+float weightOf(float share, float view) {
+  return share * viewWeight[uint(view)];
 }
 #endif
 

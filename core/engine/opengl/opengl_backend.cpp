@@ -218,7 +218,7 @@ void OpenGlBackend::Objects::setContent(const EngineContent& next) {
   weights = GlBuffer(warp.weights());
   for (std::size_t i = 0; i < cameraPixels; ++i) {
     float* const to = &known[knownFloats * i];
-    to[3] = engine.venue.usable[i] != 0 ? next.unmaskedShare(i) : 0.0f;
+    to[3] = compensation::relianceOn(engine.venue, i) * next.unmaskedShare(i);
     to[11] = next.unmaskedShare(i);
     std::copy_n(next.place[i].data(), 2, to + 21);
   }

@@ -76,6 +76,9 @@ inline compensation::MeasuredVenue severalDevices(std::uint64_t seed) {
   venue.black.assign(venue.flood.size(), 0.002f);
   venue.usable.assign(cameras.count(), 1);
   for (std::size_t i = 0; i < venue.usable.size(); i += 37) venue.usable[i] = 0;
+  Random doubts{seed, cameras.count()};
+  for (std::size_t i = 0; i < venue.usable.size(); ++i)
+    venue.trust.push_back(0.3f + 0.7f * doubts.uniformFloat());
   return venue;
 }
 

@@ -13,6 +13,9 @@ constexpr double wellExposed = 0.1;  // of full scale: darker pixels add noise a
 constexpr double nearSaturation = 0.95;
 constexpr double sigmas = 6.0;
 
+/// Where a pixel is compared must not depend on how its noise happens to make the two differ: it is chosen by
+/// their mean by inverse variances, of which their difference is independent. By either alone, even light
+/// near the limit would seem to change.
 double contradiction(const rig::RawFrame& longer, const rig::RawFrame& shorter,
                      const hdr::CameraModel& model) {
   double longTime = hdr::trueSeconds(model, longer.seconds),
@@ -22,13 +25,18 @@ double contradiction(const rig::RawFrame& longer, const rig::RawFrame& shorter,
     auto signal = static_cast<double>(longer.signal.data()[at]);
     if (signal >= nearSaturation * model.saturation) continue;
     const hdr::ResponseCurve& response = model.response[at % 3];
-    double linear = response(signal);
-    if (linear < wellExposed) continue;
-    double other = response(static_cast<double>(shorter.signal.data()[at]));
-    expected += linear / longTime;
-    found += other / shortTime;
-    variance += hdr::linearVariance(model, linear) / (longTime * longTime) +
-                hdr::linearVariance(model, linear * shortTime / longTime) / (shortTime * shortTime);
+    const double linear = response(signal);
+    const double first = linear / longTime;
+    const double second = response(static_cast<double>(shorter.signal.data()[at])) / shortTime;
+    const double firstVariance = hdr::linearVariance(model, linear) / (longTime * longTime);
+    const double secondVariance =
+        hdr::linearVariance(model, linear * shortTime / longTime) / (shortTime * shortTime);
+    const double both = firstVariance + secondVariance;
+    const double mean = both > 0.0 ? (first * secondVariance + second * firstVariance) / both : first;
+    if (mean * longTime < wellExposed) continue;
+    expected += first;
+    found += second;
+    variance += both;
   }
   double apart = std::abs(found - expected);
   return apart > sigmas * std::sqrt(variance) ? apart / expected : 0.0;

@@ -75,6 +75,15 @@ double roomLight(const hdr::BlackLevel& black, const photography::References& re
   return whole > 0.0 ? light / whole : 0.0;
 }
 
+Alarm roomLightAlarm(bool isBrighter) {
+  return alarm(
+      AlarmKind::ambientChanged,
+      isBrighter ? RELUCENT_MESSAGE("alarm.room-brighter", "the light of the room became brighter")
+                 : RELUCENT_MESSAGE("alarm.room-darker", "the light of the room became darker"),
+      RELUCENT_MESSAGE("alarm.restore-room-light",
+                       "restore the light of the room, keep doors and curtains closed, then try again"));
+}
+
 std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) {
   const photography::References& references = baseline.references;
   Sum change;
@@ -86,12 +95,7 @@ std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) 
   double limit = reading_limit::roomLight * static_cast<double>(references.typical) *
                  static_cast<double>(now.black.radiance.size());
   if (std::abs(change.value) < limit || !change.isSignificant()) return std::nullopt;
-  return alarm(
-      AlarmKind::ambientChanged,
-      change.value > 0.0 ? RELUCENT_MESSAGE("alarm.room-brighter", "the light of the room became brighter")
-                         : RELUCENT_MESSAGE("alarm.room-darker", "the light of the room became darker"),
-      RELUCENT_MESSAGE("alarm.restore-room-light",
-                       "restore the light of the room, keep doors and curtains closed, then try again"));
+  return roomLightAlarm(change.value > 0.0);
 }
 
 /// One camera's view of one picture, before and now, the lamp's power taken out.
@@ -250,33 +254,63 @@ std::optional<Alarm> inspectFullLight(const Rasters& cameras, std::size_t camera
   return changed;
 }
 
-/// Whether one brightness of all explains how the exposures differ. By the light of places, whose noise is
-/// little.
-bool isOfBrightness(const photography::ContradictoryViews& views) {
+/// Sums over 8x6 places of a view, whose noise is little.
+using Places = Eigen::Array<double, 8 * 6, 1>;
+
+/// `lightOf`: of a pixel. Where the longer exposure is saturated nothing is summed.
+template <typename LightOf>
+Places placesOf(const photography::ContradictoryViews& views, const LightOf& lightOf) {
   constexpr int across = 8, down = 6;
-  constexpr double mostLeft = 0.25;  // squared
   const Size size = views.longer.size();
-  std::vector<double> before(across * down, 0.0), after(before);
+  Places places = Places::Zero();
   for (std::size_t i = 0; i < size.count(); ++i) {
     if (views.saturated[i]) continue;
     const Pixel at = pixelAt(size, i);
-    const auto place =
-        static_cast<std::size_t>(at.y * down / size.height * across + at.x * across / size.width);
-    before[place] += static_cast<double>(views.longer.data()[i]);
-    after[place] += static_cast<double>(views.shorter.data()[i]);
+    places[at.y * down / size.height * across + at.x * across / size.width] += lightOf(i);
   }
-  double product = 0.0, square = 0.0, apart = 0.0, left = 0.0;
-  for (std::size_t place = 0; place < before.size(); ++place) {
-    product += before[place] * after[place];
-    square += before[place] * before[place];
-  }
-  const double gain = square > 0.0 ? product / square : 1.0;
-  for (std::size_t place = 0; place < before.size(); ++place) {
-    const double difference = after[place] - before[place], rest = after[place] - gain * before[place];
-    apart += difference * difference;
-    left += rest * rest;
-  }
-  return left < mostLeft * apart;
+  return places;
+}
+
+/// How much of a change is one share of some light.
+struct Explanation {
+  double share = 0.0;  // of that light, least squares
+  double left = 1.0;   // what it leaves of the change, squared
+  bool holds() const { return left < 0.25; }
+};
+
+Explanation explained(const Places& change, const Places& light) {
+  const double square = light.square().sum(), all = change.square().sum();
+  if (!(square > 0.0 && all > 0.0)) return {};
+  const double share = (change * light).sum() / square;
+  return {share, (change - share * light).square().sum() / all};
+}
+
+/// By the light of the pattern itself, or by what comes to it from the room: as the projectors' full light
+/// does, or the same everywhere, astray in the lens.
+struct Change {
+  bool isShorterDarker = false;  // the shorter exposure says less light
+  Explanation brightness, room;
+};
+
+Change changeBetween(const photography::ContradictoryViews& views,
+                     const photography::References& references) {
+  const auto lightIn = [](const image::Image& view) {
+    return [&view](std::size_t i) { return static_cast<double>(view.data()[i]); };
+  };
+  const Places longer = placesOf(views, lightIn(views.longer)),
+               shorter = placesOf(views, lightIn(views.shorter));
+  const Places& before = views.isLongerFirst ? longer : shorter;
+  const Places& after = views.isLongerFirst ? shorter : longer;
+  const std::size_t first = references.cameras.offset(views.camera);
+  const Places flood = placesOf(views, [&](std::size_t i) {
+    double light = 0.0;
+    for (const auto& root : references.root) light += static_cast<double>(root[first + i].sum());
+    return light;
+  });
+  const Places change = after - before, even = placesOf(views, [](std::size_t) { return 1.0; });
+  const Explanation byFlood = explained(change, flood), byEven = explained(change, even);
+  return {shorter.sum() < longer.sum(), explained(change, before),
+          byFlood.left < byEven.left ? byFlood : byEven};
 }
 
 /// Light-weighted centres of what is lit in one colour of the reference picture, and of what is not.
@@ -412,7 +446,8 @@ Alarm flickerAlarm(double apart) {
                        "then try again"));
 }
 
-Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views) {
+Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views,
+                           const photography::References& references) {
   // The longer one has less noise, which moving it must not smooth away.
   Movement movement = movementBetween(std::vector<ViewPair>{{views.longer, views.shorter}});
   if (!views.isLongerFirst) movement = {-movement.x, -movement.y, -movement.degrees, movement.explains};
@@ -420,13 +455,15 @@ Alarm inspectContradiction(double apart, const photography::ContradictoryViews& 
     return movedAlarm(
         views.camera, movement,
         RELUCENT_MESSAGE("alarm.put-it-back", "put it back to within half a pixel, then try again"));
-  if (apart > 1.0 - darkShare)
+  const auto [isShorterDarker, brightness, room] = changeBetween(views, references);
+  if (isShorterDarker && apart > 1.0 - darkShare)
     return alarm(AlarmKind::coveredLens,
                  RELUCENT_MESSAGE("alarm.photograph-dark",
                                   "one of two photographs of a pattern is dark: the lens was covered, or the "
                                   "projector's picture gone"),
                  uncoverLens);
-  if (isOfBrightness(views)) return flickerAlarm(apart);
+  if (room.holds() && room.left < brightness.left) return roomLightAlarm(room.share > 0.0);
+  if (brightness.holds()) return flickerAlarm(apart);
   return alarm(
       AlarmKind::unsteady,
       RELUCENT_MESSAGE("alarm.photographs-differ",

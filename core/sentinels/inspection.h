@@ -69,10 +69,12 @@ double lightShare(const hdr::LampLight& seen, const ProjectorStack& pattern,
 inline constexpr double darkShare = 0.2;
 
 /// What made exposures of one pattern differ by that share of their light. A rigid movement that leaves less
-/// than half of the difference which the brightness of all does not explain: something moved. Places that
-/// differ alike, the mean square over 8x6 of them to a quarter: the light flickers. Neither: either may be,
-/// and both are said. One of them dark: neither is why.
-Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views);
+/// than half of the difference which the brightness of all does not explain: something moved. One of them
+/// dark: the lens was covered. By 8x6 places, to a quarter of their mean square: where they differ by one
+/// share of their light, the light flickers; where by one share of the floods, or by the same everywhere, and
+/// better so, the room's light changed. None of these: flicker or movement may be, and both are said.
+Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views,
+                           const photography::References& references);
 
 /// Compares all projectors at full light with the first of their floods, colour by colour: what moved, or
 /// came into the view, since the first photograph. Each colour's brightness is taken out: lamps drift, and

@@ -197,9 +197,10 @@ std::optional<Interruption> Watch::inspectBracket() {
     return std::nullopt;
   }
   static_assert(photography::Photographer::worthALook <= reading_limit::flicker);
-  const Alarm alarm = inspectContradiction(apart, *photographer_.contradictoryViews());
-  // What moved says nothing of the light.
-  if (alarm.kind != AlarmKind::moved) flicker_ = std::max(flicker_, apart);
+  const Alarm alarm = inspectContradiction(apart, *photographer_.contradictoryViews(), references_);
+  // What moved, and the room's light, say nothing of the projector's.
+  if (alarm.kind != AlarmKind::moved && alarm.kind != AlarmKind::ambientChanged)
+    flicker_ = std::max(flicker_, apart);
   return handle(alarm, trusted_);
 }
 

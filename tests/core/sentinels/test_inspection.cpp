@@ -65,6 +65,33 @@ Image scaled(Image view, double by) {
   return view;
 }
 
+/// What the projector lights at most: more on the right, and in the corner little.
+float floodAt(Pixel at) {
+  return at.x < 16 && at.y < 24 ? 0.1f : 0.5f + static_cast<float>(at.x) / 64.0f;
+}
+
+/// Of views of that size.
+References referencesOf(const Size& size) {
+  References references;
+  references.cameras = Rasters(size);
+  references.root.resize(1);
+  for (std::size_t i = 0; i < size.count(); ++i) {
+    transport::ColourBlock block = transport::ColourBlock::Zero();
+    block.diagonal().setConstant(floodAt(pixelAt(size, i)) / 3.0f);
+    references.root[0].push_back(block);
+  }
+  return references;
+}
+
+/// With light of a lamp that shines on the same surface, or one that is astray everywhere.
+enum class RoomLight { surface, astray };
+Image lit(Image view, double light, RoomLight way) {
+  for (std::size_t i = 0; i < view.data().size(); ++i)
+    view.data()[i] +=
+        static_cast<float>(light) * (way == RoomLight::astray ? 1.0f : floodAt(pixelAt(view.size(), i)));
+  return view;
+}
+
 /// A quarter of the view hidden.
 Image covered(Image view) {
   for (int y = 12; y < 36; ++y)
@@ -189,6 +216,34 @@ class TestInspection : public QObject {
     if (second == 1.0) QCOMPARE(found, 0.0);
   }
 
+  void evenLightContradictsNothing_data() {
+    QTest::addColumn<double>("light");
+    for (int k = 0; k < 9; ++k) QTest::addRow("%g of full scale", 0.09 + 0.0025 * k) << 0.09 + 0.0025 * k;
+  }
+  /// Law: of even light, as a room's is, no exposure says another than a shorter one, wherever it lies to
+  /// what is bright enough to be compared: which pixels are compared does not depend on their noise.
+  void evenLightContradictsNothing() {
+    QFETCH(double, light);
+    CameraModel model;
+    model.readNoise = 1e-3;
+    model.gain = 1e-4;
+    for (double ratio : {3.0, 12.0, 32.0}) {
+      Shot shot;
+      for (double seconds : {0.8, 0.8 / ratio}) {
+        RawFrame frame{Image({160, 120}, 3), 0, seconds};
+        for (std::size_t i = 0; i < frame.signal.data().size(); ++i) {
+          Random random{11, static_cast<std::uint64_t>(1e6 * seconds), i};
+          const double signal = light * seconds / 0.8;
+          frame.signal.data()[i] =
+              static_cast<float>(signal + std::sqrt(linearVariance(model, signal)) * random.normal());
+        }
+        shot.frames.push_back({std::move(frame)});
+      }
+      const double apart = bracketContradiction(shot, {model});
+      QVERIFY2(apart < 0.01, qPrintable(QString("%1 by exposures 1 : %2").arg(apart).arg(ratio)));
+    }
+  }
+
   void oneExposureContradictsNothing() {
     Shot shot = bracketOf(1.0, 0.0);
     shot.frames.resize(1);
@@ -197,44 +252,58 @@ class TestInspection : public QObject {
   }
 
   void whatExposuresDifferBy_data() {
+    QTest::addColumn<Image>("before");
     QTest::addColumn<Image>("after");
     QTest::addColumn<AlarmKind>("kind");
-    QTest::newRow("brighter") << scaled(movedView(0, 0, 0), 1.04) << AlarmKind::flicker;
-    QTest::newRow("much darker") << scaled(movedView(0, 0, 0), 0.7) << AlarmKind::flicker;
-    QTest::newRow("moved") << movedView(2.0, -1.0, 0) << AlarmKind::moved;
-    QTest::newRow("turned") << movedView(0, 0, 4.0) << AlarmKind::moved;
-    QTest::newRow("moved, and brighter") << scaled(movedView(-2.0, 1.0, 0), 1.1) << AlarmKind::moved;
-    QTest::newRow("hidden") << covered(movedView(0, 0, 0)) << AlarmKind::unsteady;
+    const Image still = movedView(0, 0, 0);
+    QTest::newRow("brighter") << still << scaled(still, 1.04) << AlarmKind::flicker;
+    QTest::newRow("much darker") << still << scaled(still, 0.7) << AlarmKind::flicker;
+    QTest::newRow("moved") << still << movedView(2.0, -1.0, 0) << AlarmKind::moved;
+    QTest::newRow("turned") << still << movedView(0, 0, 4.0) << AlarmKind::moved;
+    QTest::newRow("moved, and brighter") << still << scaled(movedView(-2.0, 1.0, 0), 1.1) << AlarmKind::moved;
+    QTest::newRow("hidden") << still << covered(still) << AlarmKind::unsteady;
+    for (const auto& [name, way] :
+         {std::pair("of the surface", RoomLight::surface), std::pair("astray", RoomLight::astray)})
+      for (double light : {0.05, 0.5}) {
+        const Image bright = lit(still, light, way);
+        QTest::addRow("light came on, %s, %g", name, light) << still << bright << AlarmKind::ambientChanged;
+        QTest::addRow("light went, %s, %g", name, light) << bright << still << AlarmKind::ambientChanged;
+      }
   }
-  /// Law: a change of all light is told as flicker and a movement as one, whatever the longer exposure
-  /// saturates and whichever came first; what is neither is told as perhaps both.
+  /// Law: a change of the pattern's light is told as flicker, of the room's as that, and a movement as one,
+  /// whatever the longer exposure saturates and whichever came first; what is none is told as perhaps both.
   void whatExposuresDifferBy() {
+    QFETCH(Image, before);
     QFETCH(Image, after);
     QFETCH(AlarmKind, kind);
+    const bool isBrighter = after.data().front() > before.data().front();
     CameraModel model;
     model.readNoise = 1e-3;
     model.gain = 0.0;
     for (double longest : {0.9, 1.6})
       for (bool isLongerFirst : {true, false}) {
-        const Shot shot = twoExposures(movedView(0, 0, 0), after, longest, isLongerFirst);
+        const Shot shot = twoExposures(before, after, longest, isLongerFirst);
         const auto views = contradictoryViews(shot, {model});
         // Where the longer one is dark nothing is compared.
         if (!views && kind == AlarmKind::unsteady && !isLongerFirst) continue;
         QVERIFY(views && views->isLongerFirst == isLongerFirst);
         const double apart = bracketContradiction(shot, {model});
-        const Alarm alarm = inspectContradiction(apart, *views);
+        const Alarm alarm = inspectContradiction(apart, *views, referencesOf(before.size()));
         const std::string what = english(alarm.what);
         QVERIFY2(alarm.kind == kind, what.c_str());
         QVERIFY(!alarm.advice.empty() && !alarm.safe.empty());
         if (kind == AlarmKind::unsteady)
           QVERIFY(what.find("flickers") != std::string::npos && what.find("moved") != std::string::npos);
+        if (kind == AlarmKind::ambientChanged)
+          QCOMPARE(what.find("brighter") != std::string::npos, isBrighter);
       }
   }
   /// From the earlier photograph to the later one.
   void aMovementIsToldInItsDirection() {
     for (bool isLongerFirst : {true, false}) {
       const Shot shot = twoExposures(movedView(0, 0, 0), movedView(3.0, 0, 0), 0.9, isLongerFirst);
-      const Alarm alarm = inspectContradiction(0.1, contradictoryViews(shot, {CameraModel()}).value());
+      const Alarm alarm = inspectContradiction(0.1, contradictoryViews(shot, {CameraModel()}).value(),
+                                               referencesOf({64, 48}));
       QCOMPARE(alarm.kind, AlarmKind::moved);
       QVERIFY2(english(alarm.what).find("shifted by 3.") != std::string::npos ||
                    english(alarm.what).find("shifted by 2.") != std::string::npos,
@@ -245,7 +314,9 @@ class TestInspection : public QObject {
       Image dark = movedView(0, 0, 0);
       for (float& value : dark.data()) value *= 1e-3f;
       const Shot covered = twoExposures(movedView(0, 0, 0), dark, 0.9, isLongerFirst);
-      QCOMPARE(inspectContradiction(0.99, contradictoryViews(covered, {CameraModel()}).value()).kind,
+      QCOMPARE(inspectContradiction(0.99, contradictoryViews(covered, {CameraModel()}).value(),
+                                    referencesOf({64, 48}))
+                   .kind,
                AlarmKind::coveredLens);
     }
   }

@@ -29,7 +29,9 @@ struct CompensatorSettings {
   /// ones reach those that it attenuates. |prod (1 - a_k s)| <= 1 for all 0 <= s <= 1, the spectrum of C T^T
   /// W T, after any number of steps: no component grows.
   std::vector<float> steps = {1.2f, 5.0f, 1.2f, 3.0f, 1.2f, 10.0f, 1.2f, 5.0f, 1.2f, 3.0f, 1.2f, 20.0f};
-  SolverSettings optimum;
+  /// Not to the end: from here on, steps follow the errors of T. The tolerance, of drive values, is one that
+  /// dark pictures do not meet at once.  Source: core/compensation/README.md.
+  SolverSettings optimum{.mostIterations = 60, .tolerance = 1e-5};
   /// Of `sharpen`: steepest descent, as in Zhang & Nayar.
   SolverSettings sharpening{SolverSettings::Algorithm::steepestDescent, 20};
   DirectLightSettings direct;  // reach of the defocus in `sharpen`

@@ -229,6 +229,39 @@ class TestMethods : public QObject {
 
   /// C T^T W T has its spectrum between 0 and 1, so this is what keeps `refined` from blowing anything up,
   /// after however many of its steps a frame has time for.
+  void darkPicturesAreSolvedAsWell_data() {
+    QTest::addColumn<float>("brightness");
+    QTest::newRow("bright") << 1.0f;
+    QTest::newRow("dim") << 0.1f;
+    QTest::newRow("night") << 0.01f;
+  }
+  /// Law: how near the solve comes to its end does not depend on how bright the picture is.
+  void darkPicturesAreSolvedAsWell() {
+    QFETCH(float, brightness);
+    const Prepared p(SceneSettings{});
+    image::Image content = makeContent(Content::natural, {40, 30}, 1);
+    for (float& value : content.data()) value *= brightness;
+    const Target target = fitTarget(content, p.venue, {});
+    const Compensator compensator(p.venue, p.inverse);
+    CompensatorSettings settings;
+    settings.optimum.mostIterations = 3000;
+    settings.optimum.tolerance = 1e-7;
+    const Compensator thorough(p.venue, p.inverse, settings);
+    const auto seenOf = [&](const Compensator& by) {
+      return p.venue.transport.apply(by.solve(Method::optimum, target, quiet).projector);
+    };
+    const CameraStack is = seenOf(compensator), end = seenOf(thorough);
+    double apart = 0.0, light = 0.0;
+    for (std::size_t i = 0; i < is.size(); ++i) {
+      const auto weight = static_cast<double>(target.weight[i / 3]);
+      apart += weight * std::pow(static_cast<double>(is[i] - end[i]), 2);
+      light += weight * std::pow(static_cast<double>(end[i]), 2);
+    }
+    const double share = std::sqrt(apart / light);
+    // The dark has its limits in more places; half of a code of 8 bits at a hundredth of white is 0.2 of it.
+    QVERIFY2(share < 0.06, qPrintable(QString::number(share)));
+  }
+
   void stepsLetNothingGrow() {
     double largest = 0.0;
     for (double s = 0.0; s <= 1.0; s += 1e-3) {

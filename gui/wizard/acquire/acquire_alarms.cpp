@@ -39,6 +39,7 @@ void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm, bool isPutRight) 
       alarm.kind == sentinels::AlarmKind::moved || alarm.kind == sentinels::AlarmKind::unsteady;
   if (mayHaveMoved && !viewBefore_.empty() && !isPutRight) report.repair = pushBack_;
   report.isPutRight = isPutRight;
+  trace_.setAsked(alarm.kind);
   trace_.setPutRight(isPutRight);
   alarm_ = alarm;
   asking_ = std::make_unique<QObject>();
@@ -83,6 +84,7 @@ PageCommand* AcquirePage::answering(Icon icon, sentinels::Answer answer) {
 
 void AcquirePage::answer(sentinels::Answer answer) {
   asking_.reset();
+  trace_.setAsked(std::nullopt);
   if (answer == sentinels::Answer::retry) session_.putRight();
   question_->give(answer);
   tellProgress();

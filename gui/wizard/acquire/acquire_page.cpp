@@ -75,7 +75,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
   connect(&job_, &Job::ended, this, &AcquirePage::ended);
   connect(&room_, &RoomQuestion::changed, this, &AcquirePage::diskChanged);
   connect(&trace_, &AcquisitionTrace::changed, this, [this] {
-    if (auto light = trace_.roomLight()) session_.setRoomLight(*light);
+    session_.setRoomLight(trace_.roomLight());
     tellProgress();
   });
   leaving_.setInterval(1000);
@@ -157,7 +157,8 @@ QString AcquirePage::hint() const {
   if (isPaused() && !session_.mayMeasure()) return tr("To go on measuring, confirm that the room is clear.");
   if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
   if (isDiskFull()) return tr("Waiting for room on the disk. Nothing is being projected.");
-  if (isStopping()) return tr("Ending with what is measured.");
+  if (isStopping())
+    return tr("Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.");
   if (isAsking()) return tr("Waiting for your answer.");
   if (isReading())
     return tr("The photographs of %n pattern(s) are read first. Then measuring goes on where it ended.",
@@ -175,7 +176,8 @@ QString AcquirePage::hint() const {
   if (isCountingDown())
     return tr("Measuring begins in %n second(s). Leave the room dark and still.", nullptr,
               secondsLeftToLeave_);
-  if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
+  if (!session_.areDevicesFree() && !lease_.isHeld())
+    return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (afterChange() == goOnMeasuring_ && session_.mayMeasure())
     return tr("Put right what changed, then go on measuring.");
   if (afterChange() == measureAnew_ && session_.mayMeasure())

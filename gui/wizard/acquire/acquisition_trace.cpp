@@ -111,7 +111,12 @@ void AcquisitionTrace::clear() {
   began_.reset();
   ended_.reset();
   isRecalled_ = isPutRight_ = false;
+  asked_.reset();
   Q_EMIT changed();
+}
+
+void AcquisitionTrace::setAsked(std::optional<sentinels::AlarmKind> alarm) {
+  if (std::exchange(asked_, alarm) != alarm) Q_EMIT changed();
 }
 
 void AcquisitionTrace::setPutRight(bool isPutRight) {
@@ -125,6 +130,7 @@ void AcquisitionTrace::begin() {
 
 void AcquisitionTrace::end() {
   if (!ended_) ended_ = Clock::now();
+  asked_.reset();
 }
 
 void AcquisitionTrace::recall(const pipeline::AcquisitionRecord& record) {
@@ -197,8 +203,8 @@ AcquisitionTrace::Growth AcquisitionTrace::growth() const {
 std::optional<RoomLight> AcquisitionTrace::roomLight() const {
   // What is on record says nothing of now.
   if (points_.empty() || isRecalled_) return std::nullopt;
-  const sentinels::Reading& now = points_.back().reading;
-  return RoomLight{now.roomLight, isRoomSteady(now)};
+  const sentinels::Reading last = now();
+  return RoomLight{last.roomLight, isRoomSteady(last)};
 }
 
 std::array<WatchState, 4> AcquisitionTrace::states() const {
@@ -207,17 +213,18 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
              {false, true, tr("Camera and view"), {}},
              {false, true, tr("Projector"), {}},
              {false, true, tr("Flicker"), {}}}};
-  const sentinels::Reading& now = points_.back().reading;
+  const sentinels::Reading now = this->now();
   // What was put right is no longer so, and not looked at again before the next check. Put right by hand is a
   // camera: the room's light is as it was seen last.
-  const bool isOver = now.alarm && isAnswered();
+  const bool isOver = now.alarm && lastAnswer() != nullptr;
   bool room = isRoomSteady(now);
   bool view = !isOf(now, {sentinels::AlarmKind::moved, sentinels::AlarmKind::localChange,
                           sentinels::AlarmKind::mirroredScreen, sentinels::AlarmKind::wrongScreen,
                           sentinels::AlarmKind::coveredLens}) &&
               now.view < sentinels::reading_limit::view;
   bool lamp = !isOf(now, {sentinels::AlarmKind::lampChanged, sentinels::AlarmKind::projectorAsleep});
-  bool even = now.flicker < sentinels::reading_limit::flicker;
+  bool even = now.flicker < sentinels::reading_limit::flicker &&
+              !isOf(now, {sentinels::AlarmKind::flicker, sentinels::AlarmKind::unsteady});
   std::array<WatchState, 4> states{
       {{true, room, room ? tr("Room light steady") : tr("Room light changed"),
         tr("%1 of full light, changed by %2 since the start.")
@@ -235,6 +242,8 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
                           : tr("No difference between photographs of one pattern was found.")}}};
   for (std::size_t i = 0; i < states.size(); ++i) {
     constexpr std::size_t roomLight = 0;
+    // Its figure is of the check before.
+    if (!states[i].isSteady && isFoundSince()) states[i].figure = tr("Found since the last check.");
     const bool isPutRight = isPutRight_ && i != roomLight;
     if (!states[i].isSteady && (isOver || (now.alarm && isPutRight)))
       states[i] = {false, true, isPutRight ? tr("Put right") : tr("Photographed again"),
@@ -244,14 +253,28 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
 }
 
 std::optional<sentinels::AlarmKind> AcquisitionTrace::takesAgainFor() const {
-  return !points_.empty() && !isRecalled_ && isAnswered() ? points_.back().reading.alarm : std::nullopt;
+  const Mark* mark = isRecalled_ ? nullptr : lastAnswer();
+  return mark != nullptr ? mark->retake.alarm : std::nullopt;
 }
 
-/// What the last check found was taken again since.
-bool AcquisitionTrace::isAnswered() const {
-  return std::ranges::any_of(marks_, [this](const Mark& mark) {
-    return mark.retake.reason == sentinels::RetakeReason::alarm && mark.seconds >= points_.back().seconds;
-  });
+/// What was found was taken again since the last check; null: it was not.
+const AcquisitionTrace::Mark* AcquisitionTrace::lastAnswer() const {
+  for (auto mark = marks_.rbegin(); mark != marks_.rend(); ++mark)
+    if (mark->retake.reason == sentinels::RetakeReason::alarm &&
+        (points_.empty() || mark->seconds >= points_.back().seconds))
+      return &*mark;
+  return nullptr;
+}
+
+sentinels::Reading AcquisitionTrace::now() const {
+  sentinels::Reading reading = points_.back().reading;
+  if (asked_) reading.alarm = asked_;
+  return reading;
+}
+
+/// What somebody is asked about is not what the last check found.
+bool AcquisitionTrace::isFoundSince() const {
+  return asked_ && points_.back().reading.alarm != asked_;
 }
 
 std::vector<TakenAgain> AcquisitionTrace::takenAgain(std::size_t most) const {

@@ -85,6 +85,9 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   /// From any thread.
   void expects(const pipeline::Outlook& outlook);
 
+  /// What somebody is asked about, until he has answered: perhaps found between two checks, of which no
+  /// reading says it.
+  void setAsked(std::optional<sentinels::AlarmKind> alarm);
   /// What the last check found was put right by hand, and is not looked at again yet.
   void setPutRight(bool isPutRight);
   bool isPutRight() const { return isPutRight_; }
@@ -97,13 +100,17 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   void changed();
 
  private:
-  bool isAnswered() const;
+  const Mark* lastAnswer() const;
+  bool isFoundSince() const;
+  /// The last check, with the alarm that somebody is asked about. Contract: there was one.
+  sentinels::Reading now() const;
 
   using Clock = std::chrono::steady_clock;
   std::vector<Point> points_;
   std::vector<Mark> marks_;
   std::optional<Clock::time_point> began_, ended_;
   SharedOutlook outlook_;
+  std::optional<sentinels::AlarmKind> asked_;
   bool isRecalled_ = false, isPutRight_ = false;
   mutable QMutex guard_;
   Growth growth_;

@@ -524,7 +524,7 @@ void Session::consentChanged() {
   Q_EMIT devicesChanged();
 }
 
-void Session::setRoomLight(const RoomLight& light) {
+void Session::setRoomLight(const std::optional<RoomLight>& light) {
   if (std::exchange(roomLight_, light) != light) Q_EMIT roomLightChanged();
 }
 

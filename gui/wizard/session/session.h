@@ -308,7 +308,7 @@ class Session : public QObject {
 
   /// Since the calibration was opened; none before it was measured.
   const std::optional<RoomLight>& roomLight() const { return roomLight_; }
-  void setRoomLight(const RoomLight& light);
+  void setRoomLight(const std::optional<RoomLight>& light);
 
   /// Devices, and the light transport while it is rewritten, are used by one step at a time; none: by nobody.
   const std::optional<StepName>& devicesUser() const { return devicesUser_; }

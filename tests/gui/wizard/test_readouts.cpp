@@ -65,7 +65,7 @@ class TestReadouts : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring() && acquire.isDone(), patience);
     const std::optional<double> black = page.blackShare();
     QVERIFY(black.has_value());
-    session_->setRoomLight({10.0 * *black + 0.1, true});
+    session_->setRoomLight(RoomLight{10.0 * *black + 0.1, true});
     QCOMPARE(page.blackShare(), black);
     session_->wantAcquisition();
     QTRY_VERIFY_WITH_TIMEOUT(session_->acquisition() != nullptr, patience);

@@ -162,6 +162,36 @@ class TestAcquisitionTrace : public QObject {
     QVERIFY(!trace.takesAgainFor());
   }
 
+  void whatIsAskedBetweenTwoChecksIsNotSteady_data() {
+    QTest::addColumn<AlarmKind>("kind");
+    QTest::addColumn<std::size_t>("state");
+    QTest::newRow("room light") << AlarmKind::ambientChanged << std::size_t{0};
+    QTest::newRow("moved") << AlarmKind::moved << std::size_t{1};
+    QTest::newRow("covered lens") << AlarmKind::coveredLens << std::size_t{1};
+    QTest::newRow("flicker") << AlarmKind::flicker << std::size_t{3};
+    QTest::newRow("flicker, or moved") << AlarmKind::unsteady << std::size_t{3};
+  }
+  /// Law: what somebody is asked about is called steady nowhere, whether or not a check found it; its figure
+  /// is not that of the check before. Answered, it is taken again for that.
+  void whatIsAskedBetweenTwoChecksIsNotSteady() {
+    QFETCH(AlarmKind, kind);
+    QFETCH(std::size_t, state);
+    AcquisitionTrace trace;
+    trace.begin();
+    trace.checked(readingAt(40));
+    QCoreApplication::processEvents();
+    QVERIFY(trace.states()[state].isSteady);
+    trace.setAsked(kind);
+    QVERIFY(!trace.states()[state].isSteady);
+    QCOMPARE(trace.states()[state].figure, AcquisitionTrace::tr("Found since the last check."));
+    QCOMPARE(trace.roomLight()->isSteady, state != 0);
+    trace.takenAgain({20, 21, RetakeReason::alarm, kind});
+    trace.setAsked(std::nullopt);
+    QCoreApplication::processEvents();
+    QCOMPARE(trace.takesAgainFor(), kind);
+    QVERIFY(trace.states()[state].isSteady && trace.roomLight()->isSteady);
+  }
+
   void flickerBeyondItsLimitIsAState() {
     AcquisitionTrace trace;
     trace.begin();

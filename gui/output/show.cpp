@@ -508,6 +508,12 @@ QJsonObject Show::health() const {
                      {"failures", failures_},
                      {"peak_memory_bytes", static_cast<qint64>(platform::peakMemoryBytes())},
                      {"displays", displays}};
+  const RemoteState wanted = state();
+  health["black"] = wanted.black;
+  health["paused"] = wanted.paused;
+  health["compensated"] = wanted.compensated;
+  health["brightness"] = wanted.brightness;
+  if (wanted.chart) health["chart"] = testChartName(*wanted.chart);
   if (clock_.rehearsal) health["rehearsal"] = QJsonObject{{"speed", clock_.rehearsal->speed()}};
   if (nights_) health["night"] = nights_->health(clock_.wall());
   if (nights_ && !nights_->alarm().empty())

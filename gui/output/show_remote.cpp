@@ -79,6 +79,7 @@ void Show::setPaused(bool paused) {
 void Show::setBlack(bool black) {
   if (player_) player_->setBlack(black);
   tellProjectors();
+  writeHealth(state_);
 }
 
 void Show::setCompensated(bool compensated) {

@@ -21,6 +21,11 @@ constexpr std::array factNames{
     FactName{"state", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "State")},
     FactName{"updated", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Updated")},
     FactName{"renderer", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Computed on")},
+    FactName{"black", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Black")},
+    FactName{"paused", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Frozen")},
+    FactName{"compensated", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Corrected")},
+    FactName{"brightness", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Brightness")},
+    FactName{"chart", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Test chart")},
     FactName{"frames", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Frames")},
     FactName{"late", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Late frames")},
     FactName{"frames_per_second", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Frames per second")},
@@ -82,6 +87,40 @@ constexpr std::array factNames{
     FactName{"remarks", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Remarks")},
 };
 
+/// What health.json says that something is; of a show, its streams and its watch.
+constexpr std::array stateNames{
+    FactName{"starting", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "starting")},
+    FactName{"playing", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "playing")},
+    FactName{"resting", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "resting until its hours")},
+    FactName{"photographing", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "photographing")},
+    FactName{"failed", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "failed")},
+    FactName{"stopped", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "stopped")},
+    FactName{"connecting", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "connecting")},
+    FactName{"asking", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "asking whether it may")},
+    FactName{"lost", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "lost")},
+    FactName{"opening", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "opening")},
+    FactName{"watching", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "watching")},
+    FactName{"paused", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "paused")},
+    FactName{"no camera", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "no camera")},
+    FactName{"no calibration", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "no calibration")},
+};
+
+QString nameOfState(const QString& state) {
+  for (const FactName& name : stateNames)
+    if (state == name.key) return StatusPage::tr(name.text);
+  return state;
+}
+
+/// In a word: who plays black, or stands still, says so first.
+QString summaryOf(const QJsonObject& health) {
+  const QString state = health.value("state").toString();
+  if (state != "playing") return nameOfState(state);
+  if (health.value("black").toBool()) return StatusPage::tr("black, until somebody ends it");
+  if (health.contains("chart")) return StatusPage::tr("test chart");
+  if (health.value("paused").toBool()) return StatusPage::tr("frozen, until somebody ends it");
+  return nameOfState(state);
+}
+
 constexpr const char* pageStyle =
     "body{font-family:sans-serif;margin:2em;max-width:50em;color:#222;background:#fff}"
     "table{border-collapse:collapse;width:100%}"
@@ -125,7 +164,9 @@ QString table(const QJsonObject& facts) {
   QString rows;
   for (const QString& key : keys)
     rows += "<tr><th scope=\"row\">" + nameOfFact(key).toHtmlEscaped() + "</th><td>" +
-            shown(facts.value(key)) + "</td></tr>";
+            (key == "state" ? nameOfState(facts.value(key).toString()).toHtmlEscaped()
+                            : shown(facts.value(key))) +
+            "</td></tr>";
   return "<table>" + rows + "</table>";
 }
 
@@ -164,7 +205,7 @@ bool mayBeCalled(const QString& host, const QString& computer) {
 QByteArray StatusPage::html(const QJsonObject& health) {
   const QString language = QLocale().bcp47Name().toHtmlEscaped();
   const QString direction = QLocale().textDirection() == Qt::RightToLeft ? "rtl" : "ltr";
-  const QString title = tr("Relucent: %1").arg(health.value("state").toString()).toHtmlEscaped();
+  const QString title = tr("Relucent: %1").arg(summaryOf(health)).toHtmlEscaped();
   return ("<!DOCTYPE html>\n<html lang=\"" + language + "\" dir=\"" + direction +
           "\"><head><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"10\">"
           "<meta name=\"viewport\" content=\"width=device-width\"><title>" +

@@ -266,6 +266,7 @@ class TestShow : public QObject {
     };
     send({"/black", {1.0}});
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    QTRY_VERIFY(health()["black"].toBool());
     send({"/black", {0.0}});
     QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
     send({"/item", {2.0}});

@@ -76,6 +76,28 @@ class TestStatusServer : public QObject {
     QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
   }
 
+  void theSummaryIsOfWhatIsSeen_data() {
+    QTest::addColumn<QJsonObject>("facts");
+    QTest::addColumn<QString>("summary");
+    const auto row = [](const char* name, const QJsonObject& facts, const char* summary) {
+      QTest::newRow(name) << facts << QString(summary);
+    };
+    row("playing", {{"state", "playing"}, {"black", false}, {"paused", false}}, "playing");
+    row("an older show", {{"state", "playing"}}, "playing");
+    row("black", {{"state", "playing"}, {"black", true}, {"paused", true}}, "black, until somebody ends it");
+    row("frozen", {{"state", "playing"}, {"paused", true}}, "frozen, until somebody ends it");
+    row("a chart", {{"state", "playing"}, {"chart", "grid"}, {"paused", true}}, "test chart");
+    row("out of its hours", {{"state", "resting"}, {"black", true}}, "resting until its hours");
+    row("of a later version", {{"state", "<dreaming>"}}, "&lt;dreaming&gt;");
+  }
+  /// Law: a wall that somebody made black is not called playing.
+  void theSummaryIsOfWhatIsSeen() {
+    QFETCH(QJsonObject, facts);
+    QFETCH(QString, summary);
+    const QString html = QString::fromUtf8(StatusPage::html(facts));
+    QVERIFY2(html.contains("<h1>Relucent: " + summary + "</h1>"), qPrintable(html));
+  }
+
   void theFactsAsJson() {
     const QByteArray said = asked("GET /health.json HTTP/1.0\r\n\r\n");
     QCOMPARE(QJsonDocument::fromJson(said.mid(said.indexOf("\r\n\r\n") + 4)).object(), health());

@@ -363,8 +363,9 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   if (words.value(0) == "show" && words.size() == 1) {
     if (parser.isSet(removeService)) return UninstallShow{Start::service};
     if (parser.isSet(removeAutostart)) return UninstallShow{Start::autostart};
-    if (parser.isSet(oscTemplate)) return TextToPrint{templateOf(parser)};
   }
+  // Of every show, whichever is named.
+  if (words.value(0) == "show" && parser.isSet(oscTemplate)) return TextToPrint{templateOf(parser)};
   if (words.size() != 2 || words[0] != "show")
     throw WrongArguments("usage: relucent show CALIBRATION --content PATH");
   ShowSettings settings = settingsOf(parser, parser.value(log));

@@ -99,6 +99,10 @@ class TestShowArguments : public QObject {
     QCOMPARE(parsed<InstallShow>(said + QStringList{"--install-autostart"}).start, Start::autostart);
     QVERIFY(parsed<TextToPrint>({"show", "--osc", "7701", "--osc-template", "open-stage-control"})
                 .text.contains("127.0.0.1:7701"));
+    // Whoever adds it to the command line that he has.
+    QVERIFY(parsed<TextToPrint>(
+                {"show", "venue", "--content", "pictures", "--screen", "DUMMY1", "--osc-template", "csv"})
+                .text.contains("/black"));
     QVERIFY(parsed<InstallShow>({"show", "v", "--content", "stream:rtsp://a/b", "--install-service"})
                 .arguments.contains("stream:rtsp://a/b"));
     QVERIFY_THROWS_EXCEPTION(Error,

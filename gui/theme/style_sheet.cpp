@@ -54,6 +54,7 @@ QPushButton[role="reason"]:focus { border: 2px solid {text}; padding: 0 3px; }
 QPushButton::menu-indicator { subcontrol-origin: border; subcontrol-position: center right; width: 8px; right: 4px; }
 QToolButton { background: transparent; border: 1px solid transparent; border-radius: 6px; padding: 5px; }
 QToolButton:hover { background: {raised}; }
+QToolButton:checked { background: {accentGround}; border-color: {accent}; }
 QToolButton:focus { border: 2px solid {text}; padding: 4px; }
 
 QPushButton[role="segment"] { background: {input}; border: 1px solid {border}; border-radius: 6px; padding: 0 12px;

@@ -32,6 +32,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   aimAgain_ = addCommand(Icon::camera, [this] { Q_EMIT stepWanted("camera"); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   endChart_ = addCommand(Icon::play, [this] { projection_.endChart(); });
+  hideFigures_ = addCommand(Icon::pulse, [this] { projection_.setOverlay(false); });
   stop_ = addCommand(Icon::stop, [this] {
     proof_.cancel();
     perfecting_.cancel();
@@ -281,6 +282,7 @@ void OutputPage::updateCommands() {
   renew_->show(tr("Show the current correction"), session_.areDevicesFree() && !projectorWithoutScreen());
   review_->show(tr("Look at it first"));
   endChart_->show(tr("Show the playlist"));
+  hideFigures_->show(tr("Hide the figures"));
   prove_->showUnless(whyNotProve(), tr("Take verification photograph"));
   checkDrift_->showUnless(whyNoPatterns(), tr("Check for drift"));
   repair_->showUnless(whyNoPatterns(), tr("Repair the calibration"));
@@ -359,6 +361,9 @@ std::optional<Banner> OutputPage::banner() const {
                   isFrozen() ? tr("The frozen picture stands unseen until you show it again.")
                              : tr("The playlist runs on unseen until you show it again."),
                   endChart_};
+  if (projection_.hasOverlay())
+    return Banner{Banner::Kind::information, tr("Figures are on the surface"),
+                  tr("Whoever is in the room reads them over the picture."), hideFigures_};
   if (const auto stopped = onMeasurement(session_, goOnMeasuring_)) return stopped;
   if (!proof_.isOutOfDate()) return std::nullopt;
   return Banner{isOpen() ? Banner::Kind::information : Banner::Kind::amber,

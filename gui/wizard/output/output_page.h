@@ -215,7 +215,7 @@ class OutputPage : public DevicePage {
       *aimAgain_;  // what comes before installing
   PageCommand *undoRepair_, *keepRepair_;
   std::unique_ptr<QObject> undoing_;  // while that is asked
-  PageCommand *renew_, *endChart_, *stop_;
+  PageCommand *renew_, *endChart_, *hideFigures_, *stop_;
   PageCommand *goOnMeasuring_, *review_;  // of the banner
   OutputPlaylist playlist_;
   OutputProof proof_;

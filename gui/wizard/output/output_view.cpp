@@ -60,6 +60,7 @@ class PlaybackCard : public Card {
     addAction(figures_ = toolOf(Icon::pulse, OutputPage::tr("Figures over the picture (O)")));
     nextChart_->setObjectName("next-chart");
     figures_->setObjectName("figures");
+    figures_->setCheckable(true);
     OutputProjection& projection = page_.projection();
     connect(nextChart_, &QToolButton::clicked, &projection, &OutputProjection::nextChart);
     connect(figures_, &QToolButton::clicked, &projection,
@@ -75,6 +76,7 @@ class PlaybackCard : public Card {
   void refresh() {
     PlayerStatistics s = page_.projection().statistics();
     for (QToolButton* button : {nextChart_, figures_}) setPossible(button, whyNoShow(page_));
+    figures_->setChecked(page_.projection().hasOverlay());
     bool open = page_.isOpen() && s.frames > 0, moves = s.framesPerSecond > 0.0;
     QString none = QString::fromUtf8("–");
     rate_->setValue(open && moves ? decimalText(s.framesPerSecond, 1) : none);

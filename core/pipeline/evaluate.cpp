@@ -223,7 +223,10 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
                                         unseen->judge().view(elsewhere->inside, place)),
                                 {}});
     }
-    EvaluatedPictures pictures{image.name,   judge.view(target.wanted, 0), {},
+    const auto viewed = [&](const CameraStack& light) {
+      return underEvenWhite(light, target, measured.venue.transport.cameras(), 0);
+    };
+    EvaluatedPictures pictures{image.name,   viewed(target.wanted),        {},
                                target.white, judge.view(target.inside, 0), score.reachable};
     for (compensation::Method method : methods) {
       Progress solving = judging.part(
@@ -249,7 +252,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
           score.unseen[place].methods.push_back(*of);
         }
       }
-      pictures.seen.emplace(method, judge.view(seen, 0));
+      pictures.seen.emplace(method, viewed(seen));
       if (method == methods.back()) score.asExpected = asExpected(measured, target, compensation, seen);
       if (judge.views() > 1 && method == methods.back()) {
         Progress comparing;

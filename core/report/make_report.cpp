@@ -69,7 +69,7 @@ ReportComparison predictedComparison(const pipeline::NamedImage& image,
   auto seen = [&](const ProjectorStack& picture) {
     CameraStack light = venue.transport.apply(picture);
     for (std::size_t i = 0; i < light.size(); ++i) light[i] += venue.black[i];
-    return image::imageFromStack(light, cameras, 0);
+    return underEvenWhite(light, target, cameras, 0);
   };
   const ProjectorStack warped = compensator.solve(compensation::Method::none, target, progress).projector,
                        refined = compensator.solve(compensation::Method::refined, target, progress).projector;
@@ -85,7 +85,7 @@ ReportComparison predictedComparison(const pipeline::NamedImage& image,
   }
   return {image.name,
           compensation::Method::refined,
-          image::imageFromStack(target.wanted, cameras, 0),
+          underEvenWhite(target.wanted, target, cameras, 0),
           seen(warped),
           seen(refined),
           target.white,

@@ -14,6 +14,7 @@
 #include "relucent/image/exr.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/drift_record.h"
+#include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/stopped_early.h"
@@ -482,6 +483,36 @@ class TestReport : public QObject {
       changeSettings(calibration, settings);
     }
     QVERIFY(reported() != before);
+  }
+
+  /// Law: maps of errors are for who adapts to the picture's own white, as the table's figures are.
+  void errorsAreOfTheWhiteThatPicturesHave() {
+    QTemporaryDir folder;
+    const std::filesystem::path path = folder.path().toStdString();
+    CalibrateSettings settings = plainVenue();
+    settings.content.brightness = compensation::Brightness::picture;
+    Progress silent;
+    calibrate(path / "venue", settings, path / "cache", silent);
+    const auto page = QString::fromStdString(
+        readFile(makeReport(path / "venue", {}, path / "cache", silent).files.front()));
+    EvaluateSettings evaluation;
+    evaluation.fewImages = true;
+    evaluation.target = targetOf(settings.content);
+    const EvaluateResult truth = evaluate(path / "venue", evaluation, path / "cache", silent);
+    static const QRegularExpression caption("mean colour error ΔE ([0-9.]+)\\.");
+    QList<double> told;
+    for (auto match = caption.globalMatch(page); match.hasNext();)
+      told += match.next().captured(1).toDouble();
+    QCOMPARE(told.size(), 2 * static_cast<qsizetype>(truth.images.size()));
+    for (std::size_t image = 0; image < truth.images.size(); ++image)
+      for (const MethodScore& score : truth.images[image].methods) {
+        const bool isCompensated = score.method == compensation::Method::refined;
+        if (!isCompensated && score.method != compensation::Method::none) continue;
+        const double said = told[2 * static_cast<qsizetype>(image) + (isCompensated ? 1 : 0)];
+        // Rounded to a tenth; pixels that are not usable are in one mean and not in the other.
+        QVERIFY2(std::abs(said - score.deltaE) < 0.06,
+                 qPrintable(QString("%1, %2").arg(said).arg(score.deltaE)));
+      }
   }
 
   /// Law: what a check for drift found is said until a later photograph has answered it.

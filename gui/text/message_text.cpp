@@ -58,7 +58,7 @@ QString text(const Message& message) {
 }
 
 QString fullSentence(const Message& message) {
-  static const QString stops = QString::fromUtf8(".。");
+  static const QString stops = QString::fromUtf8(".。?？؟!！…");
   QString line = text(message).trimmed();
   if (line.isEmpty()) return line;
   // A device's address, "genicam:RL01", is spelt as it is.

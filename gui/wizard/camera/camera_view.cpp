@@ -300,13 +300,17 @@ class CameraStage : public Card {
     bright_->setVisible(isAlone && look && look->check.tooBright > 0.0);
     dark_->setVisible(isAlone && look && look->check.tooDark > 0.0);
     if (!look) return setSubtitle({});
-    setSubtitle(
-        isOverlap() ? CameraPage::tr("how many projectors light each place")
-        : model_.isLooking()
-            ? CameraPage::tr("exposure %1, click to judge focus").arg(exposureText(look->frame.seconds))
-            : CameraPage::tr("as it was seen last, exposure %1").arg(exposureText(look->frame.seconds)));
+    setSubtitle(isOverlap() ? CameraPage::tr("how many projectors light each place")
+                : model_.isLooking()
+                    ? CameraPage::tr("exposure %1, click to judge focus").arg(exposureText(secondsOf(*look)))
+                    : CameraPage::tr("as it was seen last, exposure %1").arg(exposureText(secondsOf(*look))));
     bright_->setText(CameraPage::tr("Too bright %1").arg(percentText(look->check.tooBright)));
     dark_->setText(CameraPage::tr("Too dark %1").arg(percentText(look->check.tooDark)));
+  }
+  /// As it was chosen: what a camera grants differs a little, and would be another number than the button's.
+  double secondsOf(const CameraLook& look) const {
+    const std::vector<double> chosen = model_.exposures();
+    return look.exposure && *look.exposure < chosen.size() ? chosen[*look.exposure] : look.frame.seconds;
   }
 
   CameraPage& model_;

@@ -54,6 +54,13 @@ std::shared_ptr<const ClusterResult> withErrors(const ClusterResult& map, const 
   return result;
 }
 
+/// Whether the clusters that are kept are of what was measured before.
+bool isMeasuredSince(const Session& session) {
+  const auto& measured = session.result(calibration::Stage::acquisition);
+  const auto& grouped = session.result(calibration::Stage::clustering);
+  return measured && grouped && measured->stored > grouped->stored;
+}
+
 }  // namespace
 
 /// The graph refers to T.
@@ -234,6 +241,8 @@ StepStatus ClusterPage::status() const {
   int clusters = 0;
   switch (session_.progress(calibration::Stage::clustering)) {
     case calibration::StageProgress::done:
+      // A repair keeps what was decided, but not what it came to.
+      if (isMeasuredSince(session_)) return {doneOn(session_), tr("Grouped anew")};
       clusters = static_cast<int>(session_.figures<calibration::Stage::clustering>()->clusters);
       return {doneOn(session_), groupedText(tr("%n cluster(s)", nullptr, clusters), clusters)};
     case calibration::StageProgress::stale:
@@ -270,13 +279,11 @@ void ClusterPage::updateCommands() {
 std::optional<Banner> ClusterPage::banner() const {
   using calibration::Stage;
   if (session_.progress(Stage::clustering) != calibration::StageProgress::stale ||
-      areClustersFollowed(session_))
+      areClustersFollowed(session_) || (result_ && result_->sizes.empty()))
     return onMeasurement(session_, goOnMeasuring_);
-  const auto& measured = session_.result(Stage::acquisition);
-  const bool isMeasuredSince = measured && measured->stored > session_.result(Stage::clustering)->stored;
   return Banner{Banner::Kind::amber,
-                isMeasuredSince ? tr("The clusters that are kept belong to an earlier measurement")
-                                : tr("The clusters that are kept belong to an earlier threshold"),
+                isMeasuredSince(session_) ? tr("The clusters that are kept belong to an earlier measurement")
+                                          : tr("The clusters that are kept belong to an earlier threshold"),
                 tr("What you see here has been grouped again. Going on keeps it.")};
 }
 

@@ -3,6 +3,7 @@
 
 #include <QDateTime>
 #include <QDir>
+#include <QFileInfo>
 #include <QGuiApplication>
 #include <QLocale>
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "jobs/free_space.h"
 #include "output/window_projector.h"
+#include "relucent/calibration/calibration_folder.h"
 #include "relucent/calibration/patient_shot_log.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -34,6 +36,13 @@ class Fact : public ElidedLabel {
  private:
   static constexpr int least = 40;
 };
+
+/// Of a calibration: when anything of it was. Invalid: nothing is there.
+QDateTime lastWritten(const std::filesystem::path& calibration) {
+  return QFileInfo(
+             QString::fromStdString((calibration / calibration::CalibrationFolder::manifestName).string()))
+      .lastModified();
+}
 
 }  // namespace
 
@@ -111,14 +120,14 @@ bool StatusStrip::isScreenThere() const {
   return missingScreen().isEmpty();
 }
 
-/// Its size, and what it is; that it is not there where nobody waits for it, either.
 /// Amber where measuring pauses for want of room.
 void StatusStrip::showDisk(const QString& folder) {
   const auto bytes = freeBytesAt(folder);
-  disk_->setWhole(tr("%1 free").arg(bytesText(bytes)));
   setRole(disk_, static_cast<std::uint64_t>(bytes) < calibration::PatientShotLog::spare ? "amber" : "note");
+  disk_->setWhole(tr("%1 free").arg(bytesText(bytes)));
 }
 
+/// Its size, and what it is; that it is not there where nobody waits for it, either.
 QString StatusStrip::projectorText() const {
   const QString missing = missingScreen();
   const auto projectors = static_cast<int>(session_.projectors());
@@ -155,8 +164,9 @@ void StatusStrip::refresh() {
     if (!said_.isActive()) saved_->setWhole({});
     return;
   }
-  projector_->setWhole(projectorText());
+  // The room that a text needs depends on its role.
   setRole(projector_, isScreenThere() ? "note" : "amber");
+  projector_->setWhole(projectorText());
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
   if (const pipeline::ScreenRigSettings* screen = session_.screenRig())
     kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
@@ -166,16 +176,12 @@ void StatusStrip::refresh() {
   // Of several, the one that is.
   const std::optional<std::size_t> silent = session_.silentCamera();
   const QString asked = silent && session_.cameras() > 1 ? cameraLabel(session_, *silent) : kind;
+  setRole(camera_, silent ? "amber" : "note");
   camera_->setWhole(silent                      ? tr("%1, silent").arg(asked)
                     : session_.areDevicesFree() ? kind
                                                 : tr("%1, in use").arg(kind));
-  setRole(camera_, silent ? "amber" : "note");
   showDisk(QString::fromStdString(session_.path().string()));
-  QString latest;
-  for (calibration::Stage stage : allValues<calibration::Stage>())
-    if (const auto& result = session_.result(stage))
-      latest = std::max(latest, QString::fromStdString(result->stored));
-  QDateTime when = QDateTime::fromString(latest, Qt::ISODate);
+  QDateTime when = lastWritten(session_.path());
   // While it is measured, every photograph is.
   const int photographs = session_.live().photographs();
   if (std::exchange(photographs_, photographs) != photographs && session_.isMeasuring())

@@ -222,7 +222,7 @@ class PreviewStage : public QWidget {
     const ViewPreview& view = preview->views[camera_];
     Size size = view.with.size();
     views_[picture]->setPicture(pictureOf(view.without, preview->white));
-    views_[picture]->setCompared(pictureOf(view.with, preview->white), PreviewPage::tr("Uncorrected"),
+    views_[picture]->setCompared(pictureOf(view.with, preview->white), uncorrectedText(),
                                  page_.settings().method == compensation::Method::none
                                      ? PreviewPage::tr("Uncorrected, too")
                                      : PreviewPage::tr("Corrected, predicted"));
@@ -242,6 +242,12 @@ class PreviewStage : public QWidget {
     });
     showUncertainty(view);
     showContradiction();
+  }
+  /// What was measured in blocks is drawn in them, uncorrected as well.
+  QString uncorrectedText() const {
+    const int blocks = page_.session().stoppedAt();
+    return blocks > 1 ? PreviewPage::tr("Uncorrected, in blocks of %1 px").arg(blocks)
+                      : PreviewPage::tr("Uncorrected");
   }
 
   /// Wherever the content is placed, both halves of it are to be seen at first.

@@ -149,7 +149,8 @@ class TestMessageText : public QObject {
 
   void sentencesAreWhole() {
     QCOMPARE(fullSentence(sees("a", "b")), "The camera sees a, not b.");
-    QCOMPARE(fullSentence(Message::plain("it is so.")), "It is so.");
+    for (const char* end : {".", "?", "!"})
+      QCOMPARE(fullSentence(Message::plain(std::string("it is so") + end)), QString("It is so") + end);
     QCOMPARE(fullSentence(Message::plain("{} is so")), "{} is so.");
     QCOMPARE(fullSentence(Message::plain("genicam:RL01: it is off")), "genicam:RL01: it is off.");
     QCOMPARE(fullSentence(Message()), QString());

@@ -3213,10 +3213,6 @@
         <translation>بانتظارك. لا يُعرض شيء.</translation>
     </message>
     <message>
-        <source>Ending with what is measured.</source>
-        <translation>جارٍ الإنهاء بما تم قياسه.</translation>
-    </message>
-    <message>
         <source>Every photograph is saved. Threshold opens when the last is taken.</source>
         <translation>كل اللقطات محفوظة. تُفتح العتبة بعد التقاط الأخيرة.</translation>
     </message>
@@ -4097,6 +4093,10 @@
         <source>The light of the room was another one, too: see that it is as it was.</source>
         <translation>وكانت إضاءة الغرفة مختلفة أيضًا: تأكد من أنها كما كانت.</translation>
     </message>
+    <message>
+        <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
+        <translation>ينتهي: ما بُدئ يُصوَّر حتى آخره مع أنماط اختبار، ثم يُحفظ كله.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4263,6 +4263,10 @@
     <message>
         <source>dark: lens covered for a moment?</source>
         <translation>مظلمة: هل غُطيت العدسة للحظة؟</translation>
+    </message>
+    <message>
+        <source>Found since the last check.</source>
+        <translation>اكتُشف بعد آخر فحص.</translation>
     </message>
 </context>
 <context>
@@ -7159,6 +7163,18 @@ projector %2</source>
         <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
         <translation>أسود: لوحة الاختبار قائمة دون أن تُرى. T يعرض التالية ثم قائمة التشغيل.</translation>
     </message>
+    <message>
+        <source>Hide the figures</source>
+        <translation>إخفاء الأرقام</translation>
+    </message>
+    <message>
+        <source>Figures are on the surface</source>
+        <translation>الأرقام معروضة على السطح</translation>
+    </message>
+    <message>
+        <source>Whoever is in the room reads them over the picture.</source>
+        <translation>يقرؤها من في القاعة فوق الصورة.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -8011,6 +8027,10 @@ projector %2</source>
         <source>To shine on the surface, close the output first.</source>
         <translation>للعرض على السطح، أغلق الخرج أولًا.</translation>
     </message>
+    <message>
+        <source>Uncorrected, in blocks of %1 px</source>
+        <translation>بلا تصحيح، في كتل من ⁨%1⁩ px</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -8470,6 +8490,94 @@ projector %2</source>
     <message>
         <source>Set</source>
         <translation>المجموعة</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>أسود</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>مجمّد</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>مصحّح</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>السطوع</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>لوحة اختبار</translation>
+    </message>
+    <message>
+        <source>starting</source>
+        <translation>يبدأ</translation>
+    </message>
+    <message>
+        <source>playing</source>
+        <translation>يعمل</translation>
+    </message>
+    <message>
+        <source>resting until its hours</source>
+        <translation>يستريح حتى ساعاته</translation>
+    </message>
+    <message>
+        <source>photographing</source>
+        <translation>يصوّر</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>فشلت</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>متوقف</translation>
+    </message>
+    <message>
+        <source>connecting</source>
+        <translation>يتصل</translation>
+    </message>
+    <message>
+        <source>asking whether it may</source>
+        <translation>يطلب الإذن</translation>
+    </message>
+    <message>
+        <source>lost</source>
+        <translation>مفقود</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>يفتح</translation>
+    </message>
+    <message>
+        <source>watching</source>
+        <translation>يراقب</translation>
+    </message>
+    <message>
+        <source>paused</source>
+        <translation>متوقف مؤقتًا</translation>
+    </message>
+    <message>
+        <source>no camera</source>
+        <translation>لا كاميرا</translation>
+    </message>
+    <message>
+        <source>no calibration</source>
+        <translation>لا معايرة</translation>
+    </message>
+    <message>
+        <source>black, until somebody ends it</source>
+        <translation>أسود حتى ينهيه أحد</translation>
+    </message>
+    <message>
+        <source>test chart</source>
+        <translation>لوحة اختبار</translation>
+    </message>
+    <message>
+        <source>frozen, until somebody ends it</source>
+        <translation>مجمَّد حتى ينهيه أحد</translation>
     </message>
 </context>
 <context>

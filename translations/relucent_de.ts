@@ -3185,10 +3185,6 @@
         <translation>Wartet auf Sie. Es wird nichts projiziert.</translation>
     </message>
     <message>
-        <source>Ending with what is measured.</source>
-        <translation>Abschluss mit dem bisher Gemessenen.</translation>
-    </message>
-    <message>
         <source>Every photograph is saved. Threshold opens when the last is taken.</source>
         <translation>Jedes Foto wird gespeichert. Nach dem letzten öffnet sich „Schwelle“.</translation>
     </message>
@@ -4009,6 +4005,10 @@
         <source>The light of the room was another one, too: see that it is as it was.</source>
         <translation>Auch das Raumlicht war ein anderes: Sorgen Sie dafür, dass es ist wie zuvor.</translation>
     </message>
+    <message>
+        <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
+        <translation>Endet: Was begonnen ist, wird zu Ende fotografiert, dazu Testmuster. Dann wird alles behalten.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4175,6 +4175,10 @@
     <message>
         <source>dark: lens covered for a moment?</source>
         <translation>dunkel: Objektiv kurz verdeckt?</translation>
+    </message>
+    <message>
+        <source>Found since the last check.</source>
+        <translation>Seit der letzten Prüfung gefunden.</translation>
     </message>
 </context>
 <context>
@@ -7015,6 +7019,18 @@ Projektor %2</translation>
         <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
         <translation>Schwarz: Das Testbild steht ungesehen. T zeigt das nächste, dann die Wiedergabeliste.</translation>
     </message>
+    <message>
+        <source>Hide the figures</source>
+        <translation>Zahlen ausblenden</translation>
+    </message>
+    <message>
+        <source>Figures are on the surface</source>
+        <translation>Zahlen stehen auf der Fläche</translation>
+    </message>
+    <message>
+        <source>Whoever is in the room reads them over the picture.</source>
+        <translation>Wer im Raum ist, liest sie über dem Bild.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7859,6 +7875,10 @@ Projektor %2</translation>
         <source>To shine on the surface, close the output first.</source>
         <translation>Um das Bild auf die Fläche zu werfen, schließen Sie zuerst die Ausgabe.</translation>
     </message>
+    <message>
+        <source>Uncorrected, in blocks of %1 px</source>
+        <translation>Unkorrigiert, in Blöcken von %1 px</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -8314,6 +8334,94 @@ Projektor %2</translation>
     <message>
         <source>Set</source>
         <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Schwarz</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>Eingefroren</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>Korrigiert</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>Helligkeit</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>Testbild</translation>
+    </message>
+    <message>
+        <source>starting</source>
+        <translation>startet</translation>
+    </message>
+    <message>
+        <source>playing</source>
+        <translation>läuft</translation>
+    </message>
+    <message>
+        <source>resting until its hours</source>
+        <translation>ruht bis zu ihren Stunden</translation>
+    </message>
+    <message>
+        <source>photographing</source>
+        <translation>fotografiert</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>gescheitert</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>angehalten</translation>
+    </message>
+    <message>
+        <source>connecting</source>
+        <translation>verbindet</translation>
+    </message>
+    <message>
+        <source>asking whether it may</source>
+        <translation>fragt um Erlaubnis</translation>
+    </message>
+    <message>
+        <source>lost</source>
+        <translation>verloren</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>öffnet</translation>
+    </message>
+    <message>
+        <source>watching</source>
+        <translation>beobachtet</translation>
+    </message>
+    <message>
+        <source>paused</source>
+        <translation>pausiert</translation>
+    </message>
+    <message>
+        <source>no camera</source>
+        <translation>keine Kamera</translation>
+    </message>
+    <message>
+        <source>no calibration</source>
+        <translation>keine Kalibrierung</translation>
+    </message>
+    <message>
+        <source>black, until somebody ends it</source>
+        <translation>schwarz, bis jemand es beendet</translation>
+    </message>
+    <message>
+        <source>test chart</source>
+        <translation>Testbild</translation>
+    </message>
+    <message>
+        <source>frozen, until somebody ends it</source>
+        <translation>eingefroren, bis jemand es beendet</translation>
     </message>
 </context>
 <context>

@@ -3185,10 +3185,6 @@
         <translation>Esperando sus indicaciones. No se proyecta nada.</translation>
     </message>
     <message>
-        <source>Ending with what is measured.</source>
-        <translation>Terminando con lo medido.</translation>
-    </message>
-    <message>
         <source>Every photograph is saved. Threshold opens when the last is taken.</source>
         <translation>Cada fotografía se guarda. Umbral se abre al tomar la última.</translation>
     </message>
@@ -4009,6 +4005,10 @@
         <source>The light of the room was another one, too: see that it is as it was.</source>
         <translation>También la luz de la sala era otra: asegúrese de que esté como estaba.</translation>
     </message>
+    <message>
+        <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
+        <translation>Terminando: lo empezado se fotografía hasta el final, y patrones de prueba. Después se guarda todo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4175,6 +4175,10 @@
     <message>
         <source>dark: lens covered for a moment?</source>
         <translation>oscura: ¿objetivo tapado un momento?</translation>
+    </message>
+    <message>
+        <source>Found since the last check.</source>
+        <translation>Encontrado desde la última comprobación.</translation>
     </message>
 </context>
 <context>
@@ -7015,6 +7019,18 @@ proyector %2</translation>
         <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
         <translation>Negro: la carta de prueba sigue ahí sin verse. T muestra la siguiente y luego la lista.</translation>
     </message>
+    <message>
+        <source>Hide the figures</source>
+        <translation>Ocultar las cifras</translation>
+    </message>
+    <message>
+        <source>Figures are on the surface</source>
+        <translation>Hay cifras sobre la superficie</translation>
+    </message>
+    <message>
+        <source>Whoever is in the room reads them over the picture.</source>
+        <translation>Quien está en la sala las lee sobre la imagen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7859,6 +7875,10 @@ proyector %2</translation>
         <source>To shine on the surface, close the output first.</source>
         <translation>Para proyectar sobre la superficie, cierre primero la salida.</translation>
     </message>
+    <message>
+        <source>Uncorrected, in blocks of %1 px</source>
+        <translation>Sin corregir, en bloques de %1 px</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -8314,6 +8334,94 @@ proyector %2</translation>
     <message>
         <source>Set</source>
         <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Negro</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>Congelado</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>Corregido</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>Brillo</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>Carta de prueba</translation>
+    </message>
+    <message>
+        <source>starting</source>
+        <translation>arrancando</translation>
+    </message>
+    <message>
+        <source>playing</source>
+        <translation>en reproducción</translation>
+    </message>
+    <message>
+        <source>resting until its hours</source>
+        <translation>en reposo hasta su horario</translation>
+    </message>
+    <message>
+        <source>photographing</source>
+        <translation>fotografiando</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>fallido</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>detenido</translation>
+    </message>
+    <message>
+        <source>connecting</source>
+        <translation>conectando</translation>
+    </message>
+    <message>
+        <source>asking whether it may</source>
+        <translation>pidiendo permiso</translation>
+    </message>
+    <message>
+        <source>lost</source>
+        <translation>perdido</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>abriendo</translation>
+    </message>
+    <message>
+        <source>watching</source>
+        <translation>observando</translation>
+    </message>
+    <message>
+        <source>paused</source>
+        <translation>en pausa</translation>
+    </message>
+    <message>
+        <source>no camera</source>
+        <translation>sin cámara</translation>
+    </message>
+    <message>
+        <source>no calibration</source>
+        <translation>sin calibración</translation>
+    </message>
+    <message>
+        <source>black, until somebody ends it</source>
+        <translation>en negro, hasta que alguien lo termine</translation>
+    </message>
+    <message>
+        <source>test chart</source>
+        <translation>carta de prueba</translation>
+    </message>
+    <message>
+        <source>frozen, until somebody ends it</source>
+        <translation>congelado, hasta que alguien lo termine</translation>
     </message>
 </context>
 <context>

@@ -3185,10 +3185,6 @@
         <translation>En attente de votre réponse. Rien n’est projeté.</translation>
     </message>
     <message>
-        <source>Ending with what is measured.</source>
-        <translation>Arrêt en gardant ce qui est mesuré.</translation>
-    </message>
-    <message>
         <source>Every photograph is saved. Threshold opens when the last is taken.</source>
         <translation>Chaque photo est enregistrée. «&#x202f;Seuil&#x202f;» s’ouvre après la dernière.</translation>
     </message>
@@ -4009,6 +4005,10 @@
         <source>The light of the room was another one, too: see that it is as it was.</source>
         <translation>La lumière de la salle était différente aussi : veillez à ce qu’elle soit comme avant.</translation>
     </message>
+    <message>
+        <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
+        <translation>Fin en cours : ce qui est commencé est photographié jusqu’au bout, ainsi que des motifs de test. Ensuite, tout est conservé.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4175,6 +4175,10 @@
     <message>
         <source>dark: lens covered for a moment?</source>
         <translation>sombre : objectif masqué un instant ?</translation>
+    </message>
+    <message>
+        <source>Found since the last check.</source>
+        <translation>Constaté depuis le dernier contrôle.</translation>
     </message>
 </context>
 <context>
@@ -7013,7 +7017,19 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
-        <translation>Noir : la mire reste, invisible. T affiche la suivante, puis la liste.</translation>
+        <translation>Noir&#xa0;: la mire reste, invisible. T affiche la suivante, puis la liste.</translation>
+    </message>
+    <message>
+        <source>Hide the figures</source>
+        <translation>Masquer les chiffres</translation>
+    </message>
+    <message>
+        <source>Figures are on the surface</source>
+        <translation>Des chiffres sont sur la surface</translation>
+    </message>
+    <message>
+        <source>Whoever is in the room reads them over the picture.</source>
+        <translation>Ceux qui sont dans la salle les lisent sur l’image.</translation>
     </message>
 </context>
 <context>
@@ -7859,6 +7875,10 @@ projecteur %2</translation>
         <source>To shine on the surface, close the output first.</source>
         <translation>Pour projeter sur la surface, fermez d’abord la sortie.</translation>
     </message>
+    <message>
+        <source>Uncorrected, in blocks of %1 px</source>
+        <translation>Non corrigée, par blocs de %1 px</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -8314,6 +8334,94 @@ projecteur %2</translation>
     <message>
         <source>Set</source>
         <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Noir</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>Figé</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>Corrigé</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>Luminosité</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>Mire</translation>
+    </message>
+    <message>
+        <source>starting</source>
+        <translation>démarre</translation>
+    </message>
+    <message>
+        <source>playing</source>
+        <translation>en lecture</translation>
+    </message>
+    <message>
+        <source>resting until its hours</source>
+        <translation>au repos jusqu’à ses heures</translation>
+    </message>
+    <message>
+        <source>photographing</source>
+        <translation>photographie</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>en échec</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>arrêté</translation>
+    </message>
+    <message>
+        <source>connecting</source>
+        <translation>connexion</translation>
+    </message>
+    <message>
+        <source>asking whether it may</source>
+        <translation>demande l’autorisation</translation>
+    </message>
+    <message>
+        <source>lost</source>
+        <translation>perdu</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>ouverture</translation>
+    </message>
+    <message>
+        <source>watching</source>
+        <translation>observe</translation>
+    </message>
+    <message>
+        <source>paused</source>
+        <translation>en pause</translation>
+    </message>
+    <message>
+        <source>no camera</source>
+        <translation>pas de caméra</translation>
+    </message>
+    <message>
+        <source>no calibration</source>
+        <translation>pas de calibration</translation>
+    </message>
+    <message>
+        <source>black, until somebody ends it</source>
+        <translation>noir, jusqu’à ce que quelqu’un y mette fin</translation>
+    </message>
+    <message>
+        <source>test chart</source>
+        <translation>mire</translation>
+    </message>
+    <message>
+        <source>frozen, until somebody ends it</source>
+        <translation>figé, jusqu’à ce que quelqu’un y mette fin</translation>
     </message>
 </context>
 <context>
@@ -9681,7 +9789,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Another program shows it. End it before anything is measured there: Camera has the button.</source>
-        <translation>Un autre programme l’affiche. Arrêtez-la avant d’y mesurer : le bouton est sous Caméra.</translation>
+        <translation>Un autre programme l’affiche. Arrêtez-la avant d’y mesurer&#xa0;: le bouton est sous Caméra.</translation>
     </message>
 </context>
 <context>

@@ -3185,10 +3185,6 @@
         <translation>In attesa dell’operatore. Nulla viene proiettato.</translation>
     </message>
     <message>
-        <source>Ending with what is measured.</source>
-        <translation>Si conclude con quanto già misurato.</translation>
-    </message>
-    <message>
         <source>Every photograph is saved. Threshold opens when the last is taken.</source>
         <translation>Ogni foto è salvata. Soglia si apre dopo l’ultima.</translation>
     </message>
@@ -4009,6 +4005,10 @@
         <source>The light of the room was another one, too: see that it is as it was.</source>
         <translation>Anche la luce della sala era diversa: assicurarsi che sia com’era.</translation>
     </message>
+    <message>
+        <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
+        <translation>In chiusura: ciò che è iniziato viene fotografato fino in fondo, con pattern di prova. Poi tutto viene conservato.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4175,6 +4175,10 @@
     <message>
         <source>dark: lens covered for a moment?</source>
         <translation>scura: obiettivo coperto per un istante?</translation>
+    </message>
+    <message>
+        <source>Found since the last check.</source>
+        <translation>Rilevato dopo l’ultimo controllo.</translation>
     </message>
 </context>
 <context>
@@ -7015,6 +7019,18 @@ proiettore %2</translation>
         <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
         <translation>Nero: la carta di test resta, non vista. T mostra la successiva, poi la lista.</translation>
     </message>
+    <message>
+        <source>Hide the figures</source>
+        <translation>Nascondi le cifre</translation>
+    </message>
+    <message>
+        <source>Figures are on the surface</source>
+        <translation>Ci sono cifre sulla superficie</translation>
+    </message>
+    <message>
+        <source>Whoever is in the room reads them over the picture.</source>
+        <translation>Chi è in sala le legge sopra l’immagine.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7859,6 +7875,10 @@ proiettore %2</translation>
         <source>To shine on the surface, close the output first.</source>
         <translation>Per proiettare sulla superficie, chiudere prima l’uscita.</translation>
     </message>
+    <message>
+        <source>Uncorrected, in blocks of %1 px</source>
+        <translation>Non corretta, a blocchi di %1 px</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -8314,6 +8334,94 @@ proiettore %2</translation>
     <message>
         <source>Set</source>
         <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Nero</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>Congelata</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>Corretta</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>Luminosità</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>Carta di test</translation>
+    </message>
+    <message>
+        <source>starting</source>
+        <translation>in avvio</translation>
+    </message>
+    <message>
+        <source>playing</source>
+        <translation>in riproduzione</translation>
+    </message>
+    <message>
+        <source>resting until its hours</source>
+        <translation>a riposo fino al suo orario</translation>
+    </message>
+    <message>
+        <source>photographing</source>
+        <translation>sta fotografando</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>non riuscito</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>fermato</translation>
+    </message>
+    <message>
+        <source>connecting</source>
+        <translation>in connessione</translation>
+    </message>
+    <message>
+        <source>asking whether it may</source>
+        <translation>chiede il permesso</translation>
+    </message>
+    <message>
+        <source>lost</source>
+        <translation>perso</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>in apertura</translation>
+    </message>
+    <message>
+        <source>watching</source>
+        <translation>osserva</translation>
+    </message>
+    <message>
+        <source>paused</source>
+        <translation>in pausa</translation>
+    </message>
+    <message>
+        <source>no camera</source>
+        <translation>nessuna fotocamera</translation>
+    </message>
+    <message>
+        <source>no calibration</source>
+        <translation>nessuna calibrazione</translation>
+    </message>
+    <message>
+        <source>black, until somebody ends it</source>
+        <translation>nero, finché qualcuno non lo termina</translation>
+    </message>
+    <message>
+        <source>test chart</source>
+        <translation>carta di test</translation>
+    </message>
+    <message>
+        <source>frozen, until somebody ends it</source>
+        <translation>fermo, finché qualcuno non lo termina</translation>
     </message>
 </context>
 <context>

@@ -3178,10 +3178,6 @@
         <translation>操作を待っています。何も投影していません。</translation>
     </message>
     <message>
-        <source>Ending with what is measured.</source>
-        <translation>測定済みの分で終了しています。</translation>
-    </message>
-    <message>
         <source>Every photograph is saved. Threshold opens when the last is taken.</source>
         <translation>写真はすべて保存されます。最後の撮影が済むと「しきい値」が開きます。</translation>
     </message>
@@ -3987,6 +3983,10 @@
         <source>The light of the room was another one, too: see that it is as it was.</source>
         <translation>部屋の照明も変わっていました。元に戻っていることを確認してください。</translation>
     </message>
+    <message>
+        <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
+        <translation>終了中：始めた分と検証パターンを最後まで撮影し、すべて保存します。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4153,6 +4153,10 @@
     <message>
         <source>dark: lens covered for a moment?</source>
         <translation>暗い：レンズが一時覆われた？</translation>
+    </message>
+    <message>
+        <source>Found since the last check.</source>
+        <translation>前回の確認のあとに見つかりました。</translation>
     </message>
 </context>
 <context>
@@ -6979,6 +6983,18 @@ projector %2</source>
         <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
         <translation>黒：テストチャートが見えないまま残っています。T で次のチャート、その後は再生リストに戻ります。</translation>
     </message>
+    <message>
+        <source>Hide the figures</source>
+        <translation>数値を隠す</translation>
+    </message>
+    <message>
+        <source>Figures are on the surface</source>
+        <translation>サーフェスに数値が出ています</translation>
+    </message>
+    <message>
+        <source>Whoever is in the room reads them over the picture.</source>
+        <translation>会場にいる人には、画像の上に読めます。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7821,6 +7837,10 @@ projector %2</source>
         <source>To shine on the surface, close the output first.</source>
         <translation>面に投影するには、先に出力を閉じてください。</translation>
     </message>
+    <message>
+        <source>Uncorrected, in blocks of %1 px</source>
+        <translation>補正なし（%1 px のブロック）</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -8275,6 +8295,94 @@ projector %2</source>
     <message>
         <source>Set</source>
         <translation>セット</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>黒表示</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>静止中</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>補正後</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>明るさ</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>テストチャート</translation>
+    </message>
+    <message>
+        <source>starting</source>
+        <translation>開始中</translation>
+    </message>
+    <message>
+        <source>playing</source>
+        <translation>再生中</translation>
+    </message>
+    <message>
+        <source>resting until its hours</source>
+        <translation>上演時間まで待機中</translation>
+    </message>
+    <message>
+        <source>photographing</source>
+        <translation>撮影中</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失敗</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>停止</translation>
+    </message>
+    <message>
+        <source>connecting</source>
+        <translation>接続中</translation>
+    </message>
+    <message>
+        <source>asking whether it may</source>
+        <translation>許可を求めています</translation>
+    </message>
+    <message>
+        <source>lost</source>
+        <translation>切断</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>開いています</translation>
+    </message>
+    <message>
+        <source>watching</source>
+        <translation>監視中</translation>
+    </message>
+    <message>
+        <source>paused</source>
+        <translation>一時停止</translation>
+    </message>
+    <message>
+        <source>no camera</source>
+        <translation>カメラなし</translation>
+    </message>
+    <message>
+        <source>no calibration</source>
+        <translation>校正なし</translation>
+    </message>
+    <message>
+        <source>black, until somebody ends it</source>
+        <translation>黒（解除されるまで）</translation>
+    </message>
+    <message>
+        <source>test chart</source>
+        <translation>テストチャート</translation>
+    </message>
+    <message>
+        <source>frozen, until somebody ends it</source>
+        <translation>静止（解除されるまで）</translation>
     </message>
 </context>
 <context>

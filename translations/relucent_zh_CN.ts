@@ -3178,10 +3178,6 @@
         <translation>正在等待您的操作。当前没有投影。</translation>
     </message>
     <message>
-        <source>Ending with what is measured.</source>
-        <translation>正在以已测得的数据收尾。</translation>
-    </message>
-    <message>
         <source>Every photograph is saved. Threshold opens when the last is taken.</source>
         <translation>每张照片都会保存。拍完最后一张后打开“阈值”。</translation>
     </message>
@@ -3987,6 +3983,10 @@
         <source>The light of the room was another one, too: see that it is as it was.</source>
         <translation>房间的灯光也不同了：请确认已恢复原状。</translation>
     </message>
+    <message>
+        <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
+        <translation>正在结束：已开始的部分会拍完，再拍测试图案，然后全部保留。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4153,6 +4153,10 @@
     <message>
         <source>dark: lens covered for a moment?</source>
         <translation>过暗：镜头曾被短暂遮挡？</translation>
+    </message>
+    <message>
+        <source>Found since the last check.</source>
+        <translation>在上次检查之后发现。</translation>
     </message>
 </context>
 <context>
@@ -6979,6 +6983,18 @@ projector %2</source>
         <source>Black: the test chart stands unseen. T shows the next one, then the playlist.</source>
         <translation>黑屏：测试图仍在但看不到。按 T 显示下一张，然后是播放列表。</translation>
     </message>
+    <message>
+        <source>Hide the figures</source>
+        <translation>隐藏数字</translation>
+    </message>
+    <message>
+        <source>Figures are on the surface</source>
+        <translation>表面上显示着数字</translation>
+    </message>
+    <message>
+        <source>Whoever is in the room reads them over the picture.</source>
+        <translation>在场的人会在图像上看到它们。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7821,6 +7837,10 @@ projector %2</source>
         <source>To shine on the surface, close the output first.</source>
         <translation>要投到表面上，请先关闭输出。</translation>
     </message>
+    <message>
+        <source>Uncorrected, in blocks of %1 px</source>
+        <translation>未校正，以 %1 px 的块显示</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -8275,6 +8295,94 @@ projector %2</source>
     <message>
         <source>Set</source>
         <translation>方案</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>黑场</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>已定格</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>补偿后</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>亮度</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>测试图卡</translation>
+    </message>
+    <message>
+        <source>starting</source>
+        <translation>正在启动</translation>
+    </message>
+    <message>
+        <source>playing</source>
+        <translation>正在播放</translation>
+    </message>
+    <message>
+        <source>resting until its hours</source>
+        <translation>休息，等待播放时段</translation>
+    </message>
+    <message>
+        <source>photographing</source>
+        <translation>正在拍摄</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>已停止</translation>
+    </message>
+    <message>
+        <source>connecting</source>
+        <translation>正在连接</translation>
+    </message>
+    <message>
+        <source>asking whether it may</source>
+        <translation>正在请求许可</translation>
+    </message>
+    <message>
+        <source>lost</source>
+        <translation>已中断</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>正在打开</translation>
+    </message>
+    <message>
+        <source>watching</source>
+        <translation>正在监视</translation>
+    </message>
+    <message>
+        <source>paused</source>
+        <translation>已暂停</translation>
+    </message>
+    <message>
+        <source>no camera</source>
+        <translation>没有相机</translation>
+    </message>
+    <message>
+        <source>no calibration</source>
+        <translation>没有校准</translation>
+    </message>
+    <message>
+        <source>black, until somebody ends it</source>
+        <translation>黑场，直到有人结束</translation>
+    </message>
+    <message>
+        <source>test chart</source>
+        <translation>测试图</translation>
+    </message>
+    <message>
+        <source>frozen, until somebody ends it</source>
+        <translation>定格，直到有人结束</translation>
     </message>
 </context>
 <context>

@@ -83,7 +83,7 @@ std::vector<Message> findingsOf(double drift, double unusable, double flagged,
 
 std::optional<transport::FoundChange> changeOf(const std::optional<sentinels::Alarm>& alarm) {
   if (!alarm) return std::nullopt;
-  return transport::FoundChange{alarm->what, alarm->kind == sentinels::AlarmKind::moved};
+  return transport::FoundChange{alarm->what, alarm->kind == sentinels::AlarmKind::moved || alarm->isGone};
 }
 
 /// Tells of the tree's progress, and from every level on what there is still to do.

@@ -141,6 +141,7 @@ References measureReferences(Photographer& photographer, const ReferenceRounds& 
   references.rootVariance = references.root;
   for (std::size_t i = 0; i < floods; ++i) addFlood(references, i / 3, i % 3, hdr::meanOf(frames[1 + i]));
   references.firstRound = sumOf(frames, 0, references.black);
+  references.floodRounds = rounds.floods;
   findScales(references, dimShare);
   references.flicker = flickerIn({frames.begin() + 1, frames.end()});
   return references;

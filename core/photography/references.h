@@ -17,6 +17,7 @@ struct References {
       root;  // [projector][row]: flood less e, camera x projector channel
   std::vector<std::vector<transport::ColourBlock>> rootVariance;
   hdr::ProjectedLight firstRound;  // the first of each flood, all summed: what moved later shows against it
+  int floodRounds = 1;             // of which the roots are the means
   CameraMask usable;               // per row: 0 where even the shortest exposure was saturated
   std::vector<float>
       strongest;         // F per row: the largest entry of the sum of all roots, not below the dimmest

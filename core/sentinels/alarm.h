@@ -34,6 +34,8 @@ struct Alarm {
   Message safe;                 // which photographs are safe
   Message advice;               // what to do
   int first = 0, patterns = 0;  // what is not safe: it is photographed again on retry
+  bool mayStay = false;         // where all is measured anew, it need not be put back
+  bool isGone = false;          // it was there before: as it is now may be as it should be
 };
 
 /// - retry: what is not safe is photographed again, from devices that have been put right;

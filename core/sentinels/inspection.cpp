@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "relucent/base/message.h"
+#include "relucent/base/parallel.h"
 #include "relucent/base/random.h"
 #include "relucent/sentinels/movement.h"
 
@@ -48,8 +49,20 @@ Alarm alarm(AlarmKind kind, Message what, Message advice) {
           std::move(advice)};
 }
 
+constexpr auto putItBack =
+    RELUCENT_MESSAGE("alarm.put-it-back", "put it back to within half a pixel, then try again");
 constexpr auto uncoverLens = RELUCENT_MESSAGE(
     "alarm.uncover-lens", "uncover the lens, check that the projector is on, then try again");
+
+Alarm mayStay(Alarm alarm) {
+  alarm.mayStay = true;
+  return alarm;
+}
+
+Alarm gone(Alarm alarm) {
+  alarm.isGone = true;
+  return mayStay(std::move(alarm));
+}
 
 std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline, double power) {
   if (power > darkShare) return std::nullopt;
@@ -76,12 +89,17 @@ double roomLight(const hdr::BlackLevel& black, const photography::References& re
 }
 
 Alarm roomLightAlarm(bool isBrighter) {
-  return alarm(
-      AlarmKind::ambientChanged,
-      isBrighter ? RELUCENT_MESSAGE("alarm.room-brighter", "the light of the room became brighter")
-                 : RELUCENT_MESSAGE("alarm.room-darker", "the light of the room became darker"),
-      RELUCENT_MESSAGE("alarm.restore-room-light",
-                       "restore the light of the room, keep doors and curtains closed, then try again"));
+  if (isBrighter)
+    return mayStay(alarm(
+        AlarmKind::ambientChanged,
+        RELUCENT_MESSAGE("alarm.room-brighter", "the light of the room became brighter"),
+        RELUCENT_MESSAGE("alarm.restore-room-light",
+                         "restore the light of the room, keep doors and curtains closed, then try again")));
+  return gone(alarm(
+      AlarmKind::ambientChanged, RELUCENT_MESSAGE("alarm.room-darker", "the light of the room became darker"),
+      RELUCENT_MESSAGE("alarm.light-room-or-measure-again",
+                       "switch on again what shone when measuring began, then try again; or stop, and "
+                       "measure again in the light as it is now")));
 }
 
 std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) {
@@ -104,6 +122,7 @@ struct Views {
   std::vector<std::uint8_t> compared;
   double apart = 0.0, whole = 0.0, noise = 0.0;  // squared
   std::size_t changed = 0;                       // pixels off by a share of their own light
+  std::size_t brighter = 0;                      // those of them that have more of it now
 };
 
 /// The light of one picture at two times.
@@ -140,7 +159,9 @@ Views viewsOf(const Rasters& cameras, std::size_t camera, const Pictures& pictur
     views.whole += was * was;
     views.noise += variance;
     double large = localLimit * std::max(was, static_cast<double>(typical));
-    if (std::abs(is - was) > std::max(large, sigmas * std::sqrt(variance))) ++views.changed;
+    if (std::abs(is - was) <= std::max(large, sigmas * std::sqrt(variance))) continue;
+    ++views.changed;
+    views.brighter += is > was;
   }
   return views;
 }
@@ -159,28 +180,38 @@ bool isLocal(const Views& views) {
   return static_cast<double>(views.changed) > localShare * static_cast<double>(views.before.size().count());
 }
 
-Alarm movedAlarm(std::size_t camera, const Movement& movement, Message advice) {
-  return alarm(
+Alarm movedAlarm(std::size_t camera, const Movement& movement) {
+  return mayStay(alarm(
       AlarmKind::moved,
       RELUCENT_MESSAGE("alarm.moved",
                        "a camera or projector has moved: the view of camera {} is shifted by {}, {} "
                        "pixels and turned by {} degrees")
           .with(as::label(camera + 1), as::pixels(movement.x, as::decimals(1)),
                 as::pixels(movement.y, as::decimals(1)), as::degrees(movement.degrees, as::decimals(1))),
-      std::move(advice));
+      putItBack));
 }
 
 /// Beside another light: putting that right alone would leave what moved where it is.
 Alarm movedBesides(const Alarm& moved, const Alarm& ambient) {
-  return alarm(AlarmKind::moved,
-               RELUCENT_MESSAGE("alarm.moved-besides", "{}; besides, {}").with(moved.what, ambient.what),
-               RELUCENT_MESSAGE(
-                   "alarm.put-it-back-and-restore-light",
-                   "put it back to within half a pixel and restore the light of the room, then try again"));
+  return mayStay(
+      alarm(AlarmKind::moved,
+            RELUCENT_MESSAGE("alarm.moved-besides", "{}; besides, {}").with(moved.what, ambient.what),
+            RELUCENT_MESSAGE(
+                "alarm.put-it-back-and-restore-light",
+                "put it back to within half a pixel and restore the light of the room, then try again")));
 }
 
 Alarm changedAlarm(std::size_t camera, const Views& views) {
   const double share = static_cast<double>(views.changed) / static_cast<double>(views.before.size().count());
+  // What stands in the light takes it away.
+  if (2 * views.brighter > views.changed)
+    return gone(alarm(
+        AlarmKind::localChange,
+        RELUCENT_MESSAGE("alarm.something-gone",
+                         "{} % of the view of camera {} are brighter than before: what stood there is gone")
+            .with(as::share(share, as::decimals(1)), as::label(camera + 1)),
+        RELUCENT_MESSAGE("alarm.put-back-or-measure-again",
+                         "put it back, then try again; or stop, and measure again without it")));
   return alarm(
       AlarmKind::localChange,
       RELUCENT_MESSAGE("alarm.view-changed", "{} % of the view of camera {} look different from before")
@@ -198,10 +229,7 @@ std::optional<Alarm> inspectView(const Check& now, const Baseline& baseline, dou
     if (!different && !isLocal(views)) continue;
 
     const Movement movement = movementOf(views);
-    if (movement.explains)
-      return movedAlarm(
-          camera, movement,
-          RELUCENT_MESSAGE("alarm.put-it-back", "put it back to within half a pixel, then try again"));
+    if (movement.explains) return movedAlarm(camera, movement);
     if (isLocal(views)) return changedAlarm(camera, views);
   }
   return std::nullopt;
@@ -247,11 +275,37 @@ std::optional<Alarm> inspectFullLight(const Rasters& cameras, std::size_t camera
     if (movement.explains && isFar && reachOf(movement, size) > reachOf(farthest, size)) farthest = movement;
     if (isLocal(views) && !changed) changed = changedAlarm(camera, views);
   }
-  if (farthest.explains)
-    return movedAlarm(camera, farthest,
-                      RELUCENT_MESSAGE("alarm.leave-it-there",
-                                       "leave it where it is now, then try again: measuring begins again"));
+  if (farthest.explains) return movedAlarm(camera, farthest);
   return changed;
+}
+
+/// The sum of the floods of the rounds after the first, their mean: what is left of that of all.
+hdr::ProjectedLight laterRounds(const photography::References& references) {
+  hdr::ProjectedLight sum(references.firstRound);
+  const auto rounds = static_cast<float>(references.floodRounds), later = rounds - 1.0f;
+  parallelFor(0, references.usable.size(), 4096, [&](std::size_t row) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      float light = 0.0f, variance = 0.0f;
+      for (std::size_t projector = 0; projector < references.root.size(); ++projector) {
+        light += references.root[projector][row].row(static_cast<Eigen::Index>(c)).sum();
+        variance += references.rootVariance[projector][row].row(static_cast<Eigen::Index>(c)).sum();
+      }
+      float& first = sum.radiance[3 * row + c];
+      first = (rounds * light - first) / later;
+      sum.variance[3 * row + c] += variance * rounds * rounds / (later * later);
+    }
+  });
+  return sum;
+}
+
+/// All views at full light, as the floods told it.
+std::optional<Alarm> inspectFullLight(const hdr::HdrFrame& floods, const hdr::ProjectedLight& white,
+                                      const photography::References& references) {
+  const CameraMask compared = comparable(floods, white, references.usable);
+  const Pictures pictures{floods, white, compared, references.typical};
+  for (std::size_t camera = 0; camera < references.cameras.devices(); ++camera)
+    if (auto found = inspectFullLight(references.cameras, camera, pictures)) return found;
+  return std::nullopt;
 }
 
 /// Sums over 8x6 places of a view, whose noise is little.
@@ -452,9 +506,7 @@ Alarm inspectContradiction(double apart, const photography::ContradictoryViews& 
   Movement movement = movementBetween(std::vector<ViewPair>{{views.longer, views.shorter}});
   if (!views.isLongerFirst) movement = {-movement.x, -movement.y, -movement.degrees, movement.explains};
   if (movement.explains && reachOf(movement, views.longer.size()) > movementLimit)
-    return movedAlarm(
-        views.camera, movement,
-        RELUCENT_MESSAGE("alarm.put-it-back", "put it back to within half a pixel, then try again"));
+    return movedAlarm(views.camera, movement);
   const auto [isShorterDarker, brightness, room] = changeBetween(views, references);
   if (isShorterDarker && apart > 1.0 - darkShare)
     return alarm(AlarmKind::coveredLens,
@@ -478,11 +530,9 @@ Alarm inspectContradiction(double apart, const photography::ContradictoryViews& 
 
 std::optional<Alarm> inspectFloods(const hdr::ProjectedLight& white,
                                    const photography::References& references) {
-  const CameraMask compared = comparable(references.firstRound, white, references.usable);
-  const Pictures pictures{references.firstRound, white, compared, references.typical};
-  for (std::size_t camera = 0; camera < references.cameras.devices(); ++camera)
-    if (auto found = inspectFullLight(references.cameras, camera, pictures)) return found;
-  return std::nullopt;
+  if (auto found = inspectFullLight(references.firstRound, white, references)) return found;
+  if (references.floodRounds < 2) return std::nullopt;
+  return inspectFullLight(laterRounds(references), white, references);
 }
 
 std::optional<Alarm> inspectDarkness(const Check& seen, const ProjectorStack& pattern,

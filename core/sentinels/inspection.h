@@ -76,9 +76,9 @@ inline constexpr double darkShare = 0.2;
 Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views,
                            const photography::References& references);
 
-/// Compares all projectors at full light with the first of their floods, colour by colour: what moved, or
-/// came into the view, since the first photograph. Each colour's brightness is taken out: lamps drift, and
-/// some projectors' white is brighter than their red, green and blue together.
+/// Compares all projectors at full light with the first of their floods, and with the mean of those after,
+/// colour by colour: what moved, or came into the view, since the first photograph. Each colour's brightness
+/// is taken out: lamps drift, and some projectors' white is brighter than their red, green and blue together.
 std::optional<Alarm> inspectFloods(const hdr::ProjectedLight& white,
                                    const photography::References& references);
 

@@ -28,6 +28,8 @@ ProjectorStack white(const Rasters& projectors) {
   return ProjectorStack(3 * projectors.count(), 1.0f);
 }
 
+constexpr auto leaveIt = RELUCENT_MESSAGE("alarm.leave-it-as-it-is",
+                                          "leave it as it is now, then try again: measuring begins again");
 constexpr auto safeBeforeTransport = RELUCENT_MESSAGE("alarm.safe-before-light-transport",
                                                       "every photograph before the light transport is safe");
 
@@ -131,6 +133,7 @@ std::optional<Interruption> Watch::check(const Progress& progress) {
   Interruptible<Check> now = photographCheck(progress);
   if (!now) return now.interruption();
   if (auto interrupted = inspectCheck(*now, power(), trusted_)) return interrupted;
+  isFirstConfirmed_ = true;
   follow(*now);
   trusted_ = shots_.shots();
   return std::nullopt;
@@ -147,7 +150,9 @@ std::optional<Interruption> Watch::inspectCheck(const Check& now, double expecte
     supervision_.observer.checked(reading);
   }
   if (!alarm) return std::nullopt;
-  if (auto interrupted = handle(*alarm, doubtful)) return interrupted;
+  // What differs from the first look alone may have been there then.
+  const bool mayBeOfFirst = !isFirstConfirmed_ && (alarm->mayStay || alarm->kind == AlarmKind::localChange);
+  if (auto interrupted = handle(*alarm, mayBeOfFirst ? 0 : doubtful)) return interrupted;
   if (alarm->kind == AlarmKind::moved || alarm->kind == AlarmKind::localChange)
     first_.light = hdr::LampLight(now.light, expectedPower);  // the view changed, not the lamp
   return std::nullopt;
@@ -162,7 +167,10 @@ std::optional<Interruption> Watch::handle(const Alarm& raised, int doubtful) {
   Alarm alarm = raised;
   alarm.first = doubtful;
   alarm.patterns = shot - doubtful;
-  if (doubtful == 0) alarm.safe = safeBeforeTransport;
+  if (doubtful == 0) {
+    alarm.safe = safeBeforeTransport;
+    if (alarm.mayStay) alarm.advice = leaveIt;
+  }
   auto& accepted = supervision_.accepted;
   const std::pair asked{shot, alarm.kind};
   if (accepted.contains(asked)) return std::nullopt;

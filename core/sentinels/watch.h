@@ -136,9 +136,10 @@ class Watch {
   hdr::BlackLevel black_;  // e as it is now
   FirstCheck first_;
   Power last_, beforeLast_;
-  int trusted_ = 0;             // shots before this one have been confirmed by a check
-  int photographedBefore_ = 0;  // the last photograph, of those not read from the log
-  double flicker_ = 0.0;        // the largest contradiction since the last check
+  int trusted_ = 0;                // shots before this one have been confirmed by a check
+  bool isFirstConfirmed_ = false;  // a later check says what the first one said
+  int photographedBefore_ = 0;     // the last photograph, of those not read from the log
+  double flicker_ = 0.0;           // the largest contradiction since the last check
 };
 
 }  // namespace relucent::sentinels

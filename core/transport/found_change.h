@@ -9,7 +9,7 @@ namespace relucent::transport {
 /// before is left out.
 struct FoundChange {
   Message what;        // a sentence
-  bool moved = false;  // a camera or projector: going on needs it back at its place
+  bool moved = false;  // or has gone: going on needs it back, what is measured anew does not
   bool operator==(const FoundChange&) const = default;
 };
 

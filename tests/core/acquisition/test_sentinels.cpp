@@ -175,8 +175,71 @@ class TestSentinels : public QObject {
     QCOMPARE(alarms[0].first, 0);
     QCOMPARE(alarms[0].patterns, 15);
     QVERIFY(english(alarms[0].safe).find("before the light transport") != std::string::npos);
-    QVERIFY(english(alarms[0].advice).starts_with("leave it where it is now"));
+    QVERIFY(english(alarms[0].advice).starts_with("leave it as it is now"));
     QVERIFY(flaggedIn(a) <= flaggedIn(venue_->sound()) + 2);
+  }
+
+  void whatIsWrongInTheFirstLook_data() {
+    QTest::addColumn<DeviceFault>("fault");
+    const auto until = [](DeviceFault fault, int last) {
+      fault.last = last;
+      return fault;
+    };
+    QTest::newRow("somebody in a later round's flood") << until(handOver(11), 11);
+    QTest::newRow("somebody in the reference picture") << until(handOver(13), 13);
+    QTest::newRow("somebody from the start") << until(handOver(0), 14);
+    QTest::newRow("light from the start") << until(fault(FaultKind::ambient, 0, 0.05), 14);
+    QTest::newRow("camera elsewhere at the start") << until(fault(FaultKind::shiftedCamera, 0, 2.0), 14);
+  }
+  /// Law: what has gone after the first look is found by the next one, nobody is asked to bring it back, and
+  /// trying again measures from the start: it is found once, and leaves no trace.
+  void whatIsWrongInTheFirstLook() {
+    QFETCH(DeviceFault, fault);
+    for (AcquisitionMode mode : {AcquisitionMode::adaptive, AcquisitionMode::multiplexed}) {
+      FaultyVenue multiplexed(AcquisitionMode::multiplexed);
+      FaultyVenue& venue = mode == AcquisitionMode::adaptive ? *venue_ : multiplexed;
+      const Acquisition sound = venue.sound();
+      venue.faults->faults = {fault};
+      std::vector<Alarm> alarms;
+      MemoryLog log;
+      const Acquisition a = venue.run(
+          [&](const Alarm& alarm) {
+            alarms.push_back(alarm);
+            venue.faults->faults.clear();
+            return alarms.size() < 3 ? Answer::retry : Answer::keepAndStop;
+          },
+          log);
+      QCOMPARE(alarms.size(), std::size_t{1});
+      const std::string what = english(alarms[0].what), advice = english(alarms[0].advice);
+      QVERIFY2(alarms[0].first == 0, what.c_str());
+      QVERIFY2(advice.starts_with("leave it as it is now"), advice.c_str());
+      QVERIFY(a.transport == sound.transport);
+    }
+  }
+
+  void whatGoesLater_data() {
+    QTest::addColumn<DeviceFault>("fault");
+    QTest::addColumn<QString>("what");
+    QTest::newRow("somebody") << handOver(0) << "what stood there is gone";
+    QTest::newRow("light") << fault(FaultKind::ambient, 0, 0.05) << "darker";
+  }
+  /// Law: what stood in the light since the start, and goes, is not said to stand there.
+  void whatGoesLater() {
+    QFETCH(DeviceFault, fault);
+    QFETCH(QString, what);
+    fault.last = 100;
+    venue_->faults->faults = {fault};
+    std::vector<std::string> alarms;
+    MemoryLog log;
+    venue_->run(
+        [&](const Alarm& alarm) {
+          alarms.push_back(english(alarm.what) + "; " + english(alarm.advice));
+          return Answer::keepAndStop;
+        },
+        log);
+    QCOMPARE(alarms.size(), std::size_t{1});
+    QVERIFY2(alarms[0].find(what.toStdString()) != std::string::npos, alarms[0].c_str());
+    QVERIFY2(alarms[0].find("measure again") != std::string::npos, alarms[0].c_str());
   }
 
   /// With nobody to ask it stops; what is kept is safe, and running it again goes on from there.

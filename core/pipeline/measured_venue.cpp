@@ -24,8 +24,9 @@ namespace {
 MeasuredCalibration read(const calibration::CalibrationFolder& folder, Held held,
                          transport::Acquisition& stored, Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
-  auto linearization = calibration::currentResultOf(folder, calibration::Stage::linearization);
-  auto acquisition = calibration::currentResultOf(folder, calibration::Stage::acquisition);
+  // While it is measured again, with these or other settings, the earlier measurement is used.
+  auto linearization = calibration::resultOf(folder, calibration::Stage::linearization);
+  auto acquisition = calibration::resultOf(folder, calibration::Stage::acquisition);
   if (!linearization || !acquisition)
     throw Error(
         ErrorKind::input,

@@ -147,8 +147,16 @@ class Repairing {
     chosen_ = settingsOf(folder);
     Progress loading =
         progress.part(0.15, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
-    measured_ = loadCalibration(folder, former_, loading);
     const auto stored = calibration::currentResultOf(folder, Stage::acquisition);
+    // What is measured anew would be mixed with what is repaired.
+    if (!stored)
+      throw Error(
+          ErrorKind::input,
+          RELUCENT_ENGLISH_MESSAGE("calibration.not-finished", "the calibration is not finished"),
+          RELUCENT_ENGLISH_MESSAGE("calibration.resume-first", "finish it first: relucent-cli resume {}")
+              .with(path.string()),
+          path.string());
+    measured_ = loadCalibration(folder, former_, loading);
     formerFolder_ = stored->folder.filename().string();
     inputs_ = stored->inputs;
     cost_ = calibration::resultFrom<Stage::acquisition>(*stored).cost.value_or(calibration::StageCost());

@@ -38,8 +38,8 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigS
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   CalibrateSettings calibrated = settingsOf(folder);
-  auto linearized = calibration::currentResultOf(folder, calibration::Stage::linearization);
-  auto acquired = calibration::currentResultOf(folder, calibration::Stage::acquisition);
+  auto linearized = calibration::resultOf(folder, calibration::Stage::linearization);
+  auto acquired = calibration::resultOf(folder, calibration::Stage::acquisition);
   if (!linearized || !acquired)
     throw Error(
         ErrorKind::input,

@@ -17,6 +17,7 @@
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/repair.h"
 #include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/settings_json.h"
 #include "relucent/pipeline/stored_settings.h"
@@ -420,6 +421,31 @@ class TestSteps : public QObject {
       QCOMPARE(resultOf(folder, Stage::linearization)->inputs, first);
       QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::done);
     }
+  }
+
+  /// Law: whoever plays a calibration has the earlier measurement until the new one is there, whether it is
+  /// made again or with other settings.
+  void theEarlierMeasurementPlaysMeanwhile_data() { whatWasGoneBackToStaysInUse_data(); }
+  void theEarlierMeasurementPlaysMeanwhile() {
+    QFETCH(bool, again);
+    Progress quiet;
+    CalibrateSettings settings = tiny();
+    const fs::path place = path(again ? "plays" : "plays-changed");
+    calibrate(place, settings, path("cache"), quiet);
+    CalibrationFolder folder = CalibrationFolder::open(place, CalibrationFolder::Access::write);
+    const MeasuredCalibration before = loadCalibration(folder, quiet);
+    if (again) {
+      measureAgain(folder, Stage::acquisition);
+    } else {
+      settings = settingsOf(folder);
+      settings.acquisition.relativeThreshold *= 2.0;
+      changeSettings(folder, settings);
+    }
+    QVERIFY(progressOf(folder, Stage::acquisition) == StageProgress::stale);
+    const MeasuredCalibration now = loadCalibration(folder, quiet);
+    QVERIFY(now.venue.transport == before.venue.transport && now.venue.flood == before.venue.flood);
+    QVERIFY(now.ridge == before.ridge);
+    QVERIFY_THROWS_EXCEPTION(Error, repairCalibration(place, {}, path("cache"), quiet));
   }
 
   void wrongSettingsBeginNothing() {

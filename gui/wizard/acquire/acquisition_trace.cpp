@@ -63,7 +63,7 @@ QString AcquisitionTrace::reasonOf(sentinels::AlarmKind kind) {
     case sentinels::AlarmKind::moved:
       return AcquisitionTrace::tr("the camera or the projector moved");
     case sentinels::AlarmKind::localChange:
-      return AcquisitionTrace::tr("something stood in the view");
+      return AcquisitionTrace::tr("something in the view changed");
     case sentinels::AlarmKind::mirroredScreen:
     case sentinels::AlarmKind::wrongScreen:
       return AcquisitionTrace::tr("the picture was not the one sent");
@@ -88,7 +88,7 @@ QString AcquisitionTrace::headingOf(sentinels::AlarmKind kind) {
     case sentinels::AlarmKind::moved:
       return tr("The camera or the projector moved");
     case sentinels::AlarmKind::localChange:
-      return tr("Something stands in the view");
+      return tr("Something in the view changed");
     case sentinels::AlarmKind::mirroredScreen:
     case sentinels::AlarmKind::wrongScreen:
       return tr("The picture is not the one sent");
@@ -172,6 +172,8 @@ void AcquisitionTrace::takenAgain(const sentinels::Retake& retake) {
       this,
       [this, retake, now] {
         if (!began_ || now < *began_) return;
+        // Measured from the start, nothing is compared with what was seen before.
+        if (retake.reason == sentinels::RetakeReason::alarm && retake.shot == 0) points_.clear();
         marks_.push_back({std::chrono::duration<double>(now - *began_).count(), retake});
         Q_EMIT changed();
       },
@@ -204,6 +206,7 @@ std::optional<RoomLight> AcquisitionTrace::roomLight() const {
   // What is on record says nothing of now.
   if (points_.empty() || isRecalled_) return std::nullopt;
   const sentinels::Reading last = now();
+  if (isOf(last, {sentinels::AlarmKind::coveredLens})) return std::nullopt;
   return RoomLight{last.roomLight, isRoomSteady(last)};
 }
 
@@ -226,9 +229,12 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
   bool even = now.flicker < sentinels::reading_limit::flicker &&
               !isOf(now, {sentinels::AlarmKind::flicker, sentinels::AlarmKind::unsteady});
   std::array<WatchState, 4> states{
-      {{true, room, room ? tr("Room light steady") : tr("Room light changed"),
-        tr("%1 of full light, changed by %2 since the start.")
-            .arg(fineShare(now.roomLight), fineShare(std::abs(now.roomLight - now.roomLightAtFirst)))},
+      {isOf(now, {sentinels::AlarmKind::coveredLens})
+           ? WatchState{false, true, tr("Room light"), tr("Not known while the camera sees nothing.")}
+           : WatchState{true, room, room ? tr("Room light steady") : tr("Room light changed"),
+                        tr("%1 of full light, changed by %2 since the start.")
+                            .arg(fineShare(now.roomLight),
+                                 fineShare(std::abs(now.roomLight - now.roomLightAtFirst)))},
        {true, view, view ? tr("Camera still") : tr("The view changed"),
         tr("The view differs by %1 from the first.").arg(fineShare(now.view))},
        // What is seen of another view says nothing of the lamp.

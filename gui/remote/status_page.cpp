@@ -5,6 +5,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QLocale>
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -115,6 +116,11 @@ QString nameOfState(const QString& state) {
 QString summaryOf(const QJsonObject& health) {
   const QString state = health.value("state").toString();
   if (state != "playing") return nameOfState(state);
+  const QJsonArray displays = health.value("displays").toArray();
+  if (!displays.isEmpty() && std::ranges::none_of(displays, [](const QJsonValue& display) {
+        return display.toObject().value("shining").toBool(true);
+      }))
+    return StatusPage::tr("playing, but no display shows it");
   if (health.value("black").toBool()) return StatusPage::tr("black, until somebody ends it");
   if (health.contains("chart")) return StatusPage::tr("test chart");
   if (health.value("paused").toBool()) return StatusPage::tr("frozen, until somebody ends it");

@@ -87,6 +87,10 @@ class TestStatusServer : public QObject {
     row("black", {{"state", "playing"}, {"black", true}, {"paused", true}}, "black, until somebody ends it");
     row("frozen", {{"state", "playing"}, {"paused", true}}, "frozen, until somebody ends it");
     row("a chart", {{"state", "playing"}, {"chart", "grid"}, {"paused", true}}, "test chart");
+    const QJsonArray off{QJsonObject{{"shining", false}}},
+        one{QJsonObject{{"shining", false}}, QJsonObject{{"shining", true}}};
+    row("unplugged", {{"state", "playing"}, {"displays", off}}, "playing, but no display shows it");
+    row("one of two unplugged", {{"state", "playing"}, {"displays", one}}, "playing");
     row("out of its hours", {{"state", "resting"}, {"black", true}}, "resting until its hours");
     row("of a later version", {{"state", "<dreaming>"}}, "&lt;dreaming&gt;");
   }

@@ -627,10 +627,10 @@
     </message>
 </context>
 <context>
-    <name>alarm.leave-it-there</name>
+    <name>alarm.leave-it-as-it-is</name>
     <message>
-        <source>leave it where it is now, then try again: measuring begins again</source>
-        <translation>اترك الجهاز في موضعه الحالي، ثم أعد المحاولة: يبدأ القياس من جديد</translation>
+        <source>leave it as it is now, then try again: measuring begins again</source>
+        <translation>اتركه كما هو الآن ثم حاول مرة أخرى: يبدأ القياس من جديد</translation>
     </message>
 </context>
 <context>
@@ -638,6 +638,13 @@
     <message>
         <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
         <translation>الضوء يرتعش أو شُغّل أو أُطفئ: صور النمط نفسه تختلف بمقدار ⁨{} %⁩</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-room-or-measure-again</name>
+    <message>
+        <source>switch on again what shone when measuring began, then try again; or stop, and measure again in the light as it is now</source>
+        <translation>أعد تشغيل ما كان مضاءً عند بدء القياس ثم حاول مرة أخرى؛ أو أوقف القياس وقِس من جديد في الإضاءة الحالية</translation>
     </message>
 </context>
 <context>
@@ -680,6 +687,13 @@
     <message>
         <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>لا يعرض جهاز العرض شيئًا، وما زالت إضاءة القاعة مرئية</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-back-or-measure-again</name>
+    <message>
+        <source>put it back, then try again; or stop, and measure again without it</source>
+        <translation>أعده ثم حاول مرة أخرى؛ أو أوقف القياس وقِس من جديد من دونه</translation>
     </message>
 </context>
 <context>
@@ -729,6 +743,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>كل اللقطات السابقة لقياس نقل الضوء آمنة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.something-gone</name>
+    <message>
+        <source>{} % of the view of camera {} are brighter than before: what stood there is gone</source>
+        <translation>{} % من مشهد الكاميرا {} أسطع من قبل: ما كان هناك لم يعد موجودًا</translation>
     </message>
 </context>
 <context>
@@ -4117,10 +4138,6 @@
         <translation>تحرّكت الكاميرا أو جهاز العرض</translation>
     </message>
     <message>
-        <source>something stood in the view</source>
-        <translation>وقف شيء في مجال الرؤية</translation>
-    </message>
-    <message>
         <source>the picture was not the one sent</source>
         <translation>لم تكن الصورة المُرسَلة</translation>
     </message>
@@ -4217,10 +4234,6 @@
         <translation>تحركت الكاميرا أو جهاز العرض</translation>
     </message>
     <message>
-        <source>Something stands in the view</source>
-        <translation>شيء ما يحجب المشهد</translation>
-    </message>
-    <message>
         <source>The picture is not the one sent</source>
         <translation>الصورة ليست التي أُرسلت</translation>
     </message>
@@ -4267,6 +4280,18 @@
     <message>
         <source>Found since the last check.</source>
         <translation>اكتُشف بعد آخر فحص.</translation>
+    </message>
+    <message>
+        <source>something in the view changed</source>
+        <translation>تغيّر شيء في المشهد</translation>
+    </message>
+    <message>
+        <source>Something in the view changed</source>
+        <translation>تغيّر شيء في المشهد</translation>
+    </message>
+    <message>
+        <source>Not known while the camera sees nothing.</source>
+        <translation>غير معروف ما دامت الكاميرا لا ترى شيئًا.</translation>
     </message>
 </context>
 <context>
@@ -8578,6 +8603,10 @@ projector %2</source>
     <message>
         <source>frozen, until somebody ends it</source>
         <translation>مجمَّد حتى ينهيه أحد</translation>
+    </message>
+    <message>
+        <source>playing, but no display shows it</source>
+        <translation>يعمل، لكن لا شاشة تعرضه</translation>
     </message>
 </context>
 <context>

@@ -607,10 +607,10 @@
     </message>
 </context>
 <context>
-    <name>alarm.leave-it-there</name>
+    <name>alarm.leave-it-as-it-is</name>
     <message>
-        <source>leave it where it is now, then try again: measuring begins again</source>
-        <translation>lassen Sie das Gerät stehen, wo es jetzt ist, dann versuchen Sie es erneut: die Messung beginnt von vorn</translation>
+        <source>leave it as it is now, then try again: measuring begins again</source>
+        <translation>lassen Sie es, wie es jetzt ist, und versuchen Sie es noch einmal: Die Messung beginnt von vorn</translation>
     </message>
 </context>
 <context>
@@ -618,6 +618,13 @@
     <message>
         <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
         <translation>das Licht flackert oder wurde geschaltet: Fotos eines Musters unterscheiden sich um {} %</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-room-or-measure-again</name>
+    <message>
+        <source>switch on again what shone when measuring began, then try again; or stop, and measure again in the light as it is now</source>
+        <translation>schalten Sie wieder ein, was zu Beginn der Messung leuchtete, und versuchen Sie es noch einmal; oder halten Sie an und messen Sie im jetzigen Licht neu</translation>
     </message>
 </context>
 <context>
@@ -660,6 +667,13 @@
     <message>
         <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>der Projektor zeigt nichts, nur das Raumlicht ist noch zu sehen</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-back-or-measure-again</name>
+    <message>
+        <source>put it back, then try again; or stop, and measure again without it</source>
+        <translation>stellen Sie es zurück und versuchen Sie es noch einmal; oder halten Sie an und messen Sie ohne es neu</translation>
     </message>
 </context>
 <context>
@@ -709,6 +723,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>alle Fotos vor dem Lichttransport sind sicher</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.something-gone</name>
+    <message>
+        <source>{} % of the view of camera {} are brighter than before: what stood there is gone</source>
+        <translation>{} % des Blickfelds von Kamera {} sind heller als zuvor: Was dort stand, ist weg</translation>
     </message>
 </context>
 <context>
@@ -4029,10 +4050,6 @@
         <translation>Kamera oder Projektor bewegt</translation>
     </message>
     <message>
-        <source>something stood in the view</source>
-        <translation>etwas stand im Bild</translation>
-    </message>
-    <message>
         <source>the picture was not the one sent</source>
         <translation>es war nicht das gesendete Bild</translation>
     </message>
@@ -4129,10 +4146,6 @@
         <translation>Kamera oder Projektor hat sich bewegt</translation>
     </message>
     <message>
-        <source>Something stands in the view</source>
-        <translation>Etwas steht im Bild</translation>
-    </message>
-    <message>
         <source>The picture is not the one sent</source>
         <translation>Das Bild ist nicht das gesendete</translation>
     </message>
@@ -4179,6 +4192,18 @@
     <message>
         <source>Found since the last check.</source>
         <translation>Seit der letzten Prüfung gefunden.</translation>
+    </message>
+    <message>
+        <source>something in the view changed</source>
+        <translation>im Blickfeld hat sich etwas verändert</translation>
+    </message>
+    <message>
+        <source>Something in the view changed</source>
+        <translation>Im Blickfeld hat sich etwas verändert</translation>
+    </message>
+    <message>
+        <source>Not known while the camera sees nothing.</source>
+        <translation>Nicht bekannt, solange die Kamera nichts sieht.</translation>
     </message>
 </context>
 <context>
@@ -8422,6 +8447,10 @@ Projektor %2</translation>
     <message>
         <source>frozen, until somebody ends it</source>
         <translation>eingefroren, bis jemand es beendet</translation>
+    </message>
+    <message>
+        <source>playing, but no display shows it</source>
+        <translation>läuft, aber kein Bildschirm zeigt es</translation>
     </message>
 </context>
 <context>

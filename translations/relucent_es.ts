@@ -607,10 +607,10 @@
     </message>
 </context>
 <context>
-    <name>alarm.leave-it-there</name>
+    <name>alarm.leave-it-as-it-is</name>
     <message>
-        <source>leave it where it is now, then try again: measuring begins again</source>
-        <translation>déjelo donde está ahora e inténtelo de nuevo: la medición empieza desde el principio</translation>
+        <source>leave it as it is now, then try again: measuring begins again</source>
+        <translation>déjelo como está ahora y pruebe otra vez: la medición empieza de nuevo</translation>
     </message>
 </context>
 <context>
@@ -618,6 +618,13 @@
     <message>
         <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
         <translation>la luz parpadea o se ha encendido o apagado: las fotografías de un mismo patrón difieren un {} %</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-room-or-measure-again</name>
+    <message>
+        <source>switch on again what shone when measuring began, then try again; or stop, and measure again in the light as it is now</source>
+        <translation>vuelva a encender lo que iluminaba al empezar a medir y pruebe otra vez; o detenga y mida de nuevo con la luz de ahora</translation>
     </message>
 </context>
 <context>
@@ -660,6 +667,13 @@
     <message>
         <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>el proyector no muestra nada, pero se sigue viendo la luz de la propia sala</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-back-or-measure-again</name>
+    <message>
+        <source>put it back, then try again; or stop, and measure again without it</source>
+        <translation>vuelva a ponerlo y pruebe otra vez; o detenga y mida de nuevo sin ello</translation>
     </message>
 </context>
 <context>
@@ -709,6 +723,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>todas las fotografías anteriores al transporte de luz están a salvo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.something-gone</name>
+    <message>
+        <source>{} % of the view of camera {} are brighter than before: what stood there is gone</source>
+        <translation>el {} % de la vista de la cámara {} está más claro que antes: lo que había allí ya no está</translation>
     </message>
 </context>
 <context>
@@ -4029,10 +4050,6 @@
         <translation>se movió la cámara o el proyector</translation>
     </message>
     <message>
-        <source>something stood in the view</source>
-        <translation>algo se interpuso en la imagen</translation>
-    </message>
-    <message>
         <source>the picture was not the one sent</source>
         <translation>la imagen no era la enviada</translation>
     </message>
@@ -4129,10 +4146,6 @@
         <translation>La cámara o el proyector se ha movido</translation>
     </message>
     <message>
-        <source>Something stands in the view</source>
-        <translation>Hay algo en la vista</translation>
-    </message>
-    <message>
         <source>The picture is not the one sent</source>
         <translation>La imagen no es la enviada</translation>
     </message>
@@ -4179,6 +4192,18 @@
     <message>
         <source>Found since the last check.</source>
         <translation>Encontrado desde la última comprobación.</translation>
+    </message>
+    <message>
+        <source>something in the view changed</source>
+        <translation>algo cambió en la vista</translation>
+    </message>
+    <message>
+        <source>Something in the view changed</source>
+        <translation>Algo cambió en la vista</translation>
+    </message>
+    <message>
+        <source>Not known while the camera sees nothing.</source>
+        <translation>No se sabe mientras la cámara no vea nada.</translation>
     </message>
 </context>
 <context>
@@ -8422,6 +8447,10 @@ proyector %2</translation>
     <message>
         <source>frozen, until somebody ends it</source>
         <translation>congelado, hasta que alguien lo termine</translation>
+    </message>
+    <message>
+        <source>playing, but no display shows it</source>
+        <translation>en reproducción, pero ninguna pantalla lo muestra</translation>
     </message>
 </context>
 <context>

@@ -607,10 +607,10 @@
     </message>
 </context>
 <context>
-    <name>alarm.leave-it-there</name>
+    <name>alarm.leave-it-as-it-is</name>
     <message>
-        <source>leave it where it is now, then try again: measuring begins again</source>
-        <translation>laissez l’appareil là où il est maintenant, puis réessayez : la mesure recommence depuis le début</translation>
+        <source>leave it as it is now, then try again: measuring begins again</source>
+        <translation>laissez-le tel qu’il est maintenant, puis réessayez : la mesure recommence</translation>
     </message>
 </context>
 <context>
@@ -618,6 +618,13 @@
     <message>
         <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
         <translation>la lumière scintille ou a été allumée ou éteinte&#xa0;: les photos d’un même motif diffèrent de {}&#x202f;%</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-room-or-measure-again</name>
+    <message>
+        <source>switch on again what shone when measuring began, then try again; or stop, and measure again in the light as it is now</source>
+        <translation>rallumez ce qui éclairait au début de la mesure, puis réessayez ; ou arrêtez et mesurez à nouveau dans la lumière actuelle</translation>
     </message>
 </context>
 <context>
@@ -660,6 +667,13 @@
     <message>
         <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>le projecteur n’affiche rien, seule la lumière de la salle est encore visible</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-back-or-measure-again</name>
+    <message>
+        <source>put it back, then try again; or stop, and measure again without it</source>
+        <translation>remettez-le en place, puis réessayez ; ou arrêtez et mesurez à nouveau sans lui</translation>
     </message>
 </context>
 <context>
@@ -709,6 +723,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>toutes les photos antérieures au transport lumineux sont en sécurité</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.something-gone</name>
+    <message>
+        <source>{} % of the view of camera {} are brighter than before: what stood there is gone</source>
+        <translation>{} % de la vue de la caméra {} sont plus clairs qu’avant : ce qui s’y trouvait n’y est plus</translation>
     </message>
 </context>
 <context>
@@ -4029,10 +4050,6 @@
         <translation>la caméra ou le projecteur a bougé</translation>
     </message>
     <message>
-        <source>something stood in the view</source>
-        <translation>quelque chose était dans le champ</translation>
-    </message>
-    <message>
         <source>the picture was not the one sent</source>
         <translation>ce n’était pas l’image envoyée</translation>
     </message>
@@ -4129,10 +4146,6 @@
         <translation>La caméra ou le projecteur a bougé</translation>
     </message>
     <message>
-        <source>Something stands in the view</source>
-        <translation>Quelque chose gêne la vue</translation>
-    </message>
-    <message>
         <source>The picture is not the one sent</source>
         <translation>L’image n’est pas celle envoyée</translation>
     </message>
@@ -4179,6 +4192,18 @@
     <message>
         <source>Found since the last check.</source>
         <translation>Constaté depuis le dernier contrôle.</translation>
+    </message>
+    <message>
+        <source>something in the view changed</source>
+        <translation>quelque chose a changé dans la vue</translation>
+    </message>
+    <message>
+        <source>Something in the view changed</source>
+        <translation>Quelque chose a changé dans la vue</translation>
+    </message>
+    <message>
+        <source>Not known while the camera sees nothing.</source>
+        <translation>Inconnue tant que la caméra ne voit rien.</translation>
     </message>
 </context>
 <context>
@@ -8422,6 +8447,10 @@ projecteur %2</translation>
     <message>
         <source>frozen, until somebody ends it</source>
         <translation>figé, jusqu’à ce que quelqu’un y mette fin</translation>
+    </message>
+    <message>
+        <source>playing, but no display shows it</source>
+        <translation>en lecture, mais aucun écran ne l’affiche</translation>
     </message>
 </context>
 <context>

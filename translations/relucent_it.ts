@@ -607,10 +607,10 @@
     </message>
 </context>
 <context>
-    <name>alarm.leave-it-there</name>
+    <name>alarm.leave-it-as-it-is</name>
     <message>
-        <source>leave it where it is now, then try again: measuring begins again</source>
-        <translation>lasciarlo dove si trova ora, poi riprovare: la misura ricomincia da capo</translation>
+        <source>leave it as it is now, then try again: measuring begins again</source>
+        <translation>lascialo com’è ora e riprova: la misura ricomincia</translation>
     </message>
 </context>
 <context>
@@ -618,6 +618,13 @@
     <message>
         <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
         <translation>la luce sfarfalla o è stata accesa o spenta: le fotografie dello stesso motivo differiscono del {} %</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-room-or-measure-again</name>
+    <message>
+        <source>switch on again what shone when measuring began, then try again; or stop, and measure again in the light as it is now</source>
+        <translation>riaccendi ciò che illuminava all’inizio della misura e riprova; oppure ferma e misura di nuovo con la luce di adesso</translation>
     </message>
 </context>
 <context>
@@ -660,6 +667,13 @@
     <message>
         <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>il proiettore non mostra nulla, ma la luce della sala è ancora visibile</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-back-or-measure-again</name>
+    <message>
+        <source>put it back, then try again; or stop, and measure again without it</source>
+        <translation>rimettilo al suo posto e riprova; oppure ferma e misura di nuovo senza</translation>
     </message>
 </context>
 <context>
@@ -709,6 +723,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>ogni foto precedente al trasporto della luce è al sicuro</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.something-gone</name>
+    <message>
+        <source>{} % of the view of camera {} are brighter than before: what stood there is gone</source>
+        <translation>il {} % dell’inquadratura della fotocamera {} è più chiaro di prima: ciò che c’era non c’è più</translation>
     </message>
 </context>
 <context>
@@ -4029,10 +4050,6 @@
         <translation>fotocamera o proiettore spostati</translation>
     </message>
     <message>
-        <source>something stood in the view</source>
-        <translation>qualcosa era nell’inquadratura</translation>
-    </message>
-    <message>
         <source>the picture was not the one sent</source>
         <translation>non era l’immagine inviata</translation>
     </message>
@@ -4129,10 +4146,6 @@
         <translation>La fotocamera o il proiettore si è spostato</translation>
     </message>
     <message>
-        <source>Something stands in the view</source>
-        <translation>C’è qualcosa nell’inquadratura</translation>
-    </message>
-    <message>
         <source>The picture is not the one sent</source>
         <translation>L’immagine non è quella inviata</translation>
     </message>
@@ -4179,6 +4192,18 @@
     <message>
         <source>Found since the last check.</source>
         <translation>Rilevato dopo l’ultimo controllo.</translation>
+    </message>
+    <message>
+        <source>something in the view changed</source>
+        <translation>qualcosa è cambiato nell’inquadratura</translation>
+    </message>
+    <message>
+        <source>Something in the view changed</source>
+        <translation>Qualcosa è cambiato nell’inquadratura</translation>
+    </message>
+    <message>
+        <source>Not known while the camera sees nothing.</source>
+        <translation>Non nota finché la fotocamera non vede nulla.</translation>
     </message>
 </context>
 <context>
@@ -8422,6 +8447,10 @@ proiettore %2</translation>
     <message>
         <source>frozen, until somebody ends it</source>
         <translation>fermo, finché qualcuno non lo termina</translation>
+    </message>
+    <message>
+        <source>playing, but no display shows it</source>
+        <translation>in riproduzione, ma nessuno schermo lo mostra</translation>
     </message>
 </context>
 <context>

@@ -602,10 +602,10 @@
     </message>
 </context>
 <context>
-    <name>alarm.leave-it-there</name>
+    <name>alarm.leave-it-as-it-is</name>
     <message>
-        <source>leave it where it is now, then try again: measuring begins again</source>
-        <translation>今の位置のまま動かさずに、再試行してください。測定は最初からやり直しになります</translation>
+        <source>leave it as it is now, then try again: measuring begins again</source>
+        <translation>今のままにしてもう一度試してください：測定は最初から始まります</translation>
     </message>
 </context>
 <context>
@@ -613,6 +613,13 @@
     <message>
         <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
         <translation>光がちらついているか、点灯・消灯されました：同じパターンの写真が {} % 異なります</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-room-or-measure-again</name>
+    <message>
+        <source>switch on again what shone when measuring began, then try again; or stop, and measure again in the light as it is now</source>
+        <translation>測定を始めたときの照明を再び点けてもう一度試すか、停止して、今の明るさで測定し直してください</translation>
     </message>
 </context>
 <context>
@@ -655,6 +662,13 @@
     <message>
         <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>プロジェクターに何も映っていませんが、室内光は見えています</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-back-or-measure-again</name>
+    <message>
+        <source>put it back, then try again; or stop, and measure again without it</source>
+        <translation>元に戻してからもう一度試すか、停止して、それがない状態で測定し直してください</translation>
     </message>
 </context>
 <context>
@@ -704,6 +718,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>光輸送測定より前の写真はすべて無事です</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.something-gone</name>
+    <message>
+        <source>{} % of the view of camera {} are brighter than before: what stood there is gone</source>
+        <translation>視野の {} %（カメラ {}）が前より明るくなりました：そこにあったものがなくなっています</translation>
     </message>
 </context>
 <context>
@@ -4007,10 +4028,6 @@
         <translation>カメラかプロジェクターが動きました</translation>
     </message>
     <message>
-        <source>something stood in the view</source>
-        <translation>視野に何かがありました</translation>
-    </message>
-    <message>
         <source>the picture was not the one sent</source>
         <translation>送った画像ではありませんでした</translation>
     </message>
@@ -4107,10 +4124,6 @@
         <translation>カメラかプロジェクターが動きました</translation>
     </message>
     <message>
-        <source>Something stands in the view</source>
-        <translation>視野に何かがあります</translation>
-    </message>
-    <message>
         <source>The picture is not the one sent</source>
         <translation>送った画像と違います</translation>
     </message>
@@ -4157,6 +4170,18 @@
     <message>
         <source>Found since the last check.</source>
         <translation>前回の確認のあとに見つかりました。</translation>
+    </message>
+    <message>
+        <source>something in the view changed</source>
+        <translation>視野内の何かが変わりました</translation>
+    </message>
+    <message>
+        <source>Something in the view changed</source>
+        <translation>視野内の何かが変わりました</translation>
+    </message>
+    <message>
+        <source>Not known while the camera sees nothing.</source>
+        <translation>カメラに何も写っていない間は分かりません。</translation>
     </message>
 </context>
 <context>
@@ -8383,6 +8408,10 @@ projector %2</source>
     <message>
         <source>frozen, until somebody ends it</source>
         <translation>静止（解除されるまで）</translation>
+    </message>
+    <message>
+        <source>playing, but no display shows it</source>
+        <translation>再生中ですが、どの画面にも出ていません</translation>
     </message>
 </context>
 <context>

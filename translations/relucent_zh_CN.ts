@@ -602,10 +602,10 @@
     </message>
 </context>
 <context>
-    <name>alarm.leave-it-there</name>
+    <name>alarm.leave-it-as-it-is</name>
     <message>
-        <source>leave it where it is now, then try again: measuring begins again</source>
-        <translation>请让它留在现在的位置，然后重试：测量将从头开始</translation>
+        <source>leave it as it is now, then try again: measuring begins again</source>
+        <translation>保持现在的样子再试：测量会从头开始</translation>
     </message>
 </context>
 <context>
@@ -613,6 +613,13 @@
     <message>
         <source>the light flickers or was switched: photographs of one pattern differ by {} %</source>
         <translation>光线闪烁或被开关：同一图案的照片相差 {} %</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-room-or-measure-again</name>
+    <message>
+        <source>switch on again what shone when measuring began, then try again; or stop, and measure again in the light as it is now</source>
+        <translation>重新打开测量开始时亮着的灯再试；或停止，在现在的光线下重新测量</translation>
     </message>
 </context>
 <context>
@@ -655,6 +662,13 @@
     <message>
         <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>投影机没有显示，但仍能看到环境光</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-back-or-measure-again</name>
+    <message>
+        <source>put it back, then try again; or stop, and measure again without it</source>
+        <translation>把它放回去再试；或停止，在没有它的情况下重新测量</translation>
     </message>
 </context>
 <context>
@@ -704,6 +718,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>光传输测量之前的照片都是安全的</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.something-gone</name>
+    <message>
+        <source>{} % of the view of camera {} are brighter than before: what stood there is gone</source>
+        <translation>画面的 {} %（相机 {}）比之前更亮：原来在那里的东西不见了</translation>
     </message>
 </context>
 <context>
@@ -4007,10 +4028,6 @@
         <translation>相机或投影机移动</translation>
     </message>
     <message>
-        <source>something stood in the view</source>
-        <translation>画面中有遮挡</translation>
-    </message>
-    <message>
         <source>the picture was not the one sent</source>
         <translation>不是发送的图像</translation>
     </message>
@@ -4107,10 +4124,6 @@
         <translation>相机或投影机移动了</translation>
     </message>
     <message>
-        <source>Something stands in the view</source>
-        <translation>视野中有东西</translation>
-    </message>
-    <message>
         <source>The picture is not the one sent</source>
         <translation>画面不是所发送的图像</translation>
     </message>
@@ -4157,6 +4170,18 @@
     <message>
         <source>Found since the last check.</source>
         <translation>在上次检查之后发现。</translation>
+    </message>
+    <message>
+        <source>something in the view changed</source>
+        <translation>画面中有东西变了</translation>
+    </message>
+    <message>
+        <source>Something in the view changed</source>
+        <translation>画面中有东西变了</translation>
+    </message>
+    <message>
+        <source>Not known while the camera sees nothing.</source>
+        <translation>相机什么都看不到时无法得知。</translation>
     </message>
 </context>
 <context>
@@ -8383,6 +8408,10 @@ projector %2</source>
     <message>
         <source>frozen, until somebody ends it</source>
         <translation>定格，直到有人结束</translation>
+    </message>
+    <message>
+        <source>playing, but no display shows it</source>
+        <translation>正在播放，但没有屏幕显示</translation>
     </message>
 </context>
 <context>

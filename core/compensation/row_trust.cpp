@@ -12,6 +12,8 @@ namespace {
 // Chosen on seven venues, see the README.
 constexpr double ofVariance = 0.1;
 constexpr double unit = 0.01;  // of white
+// Of a coarse measurement all rows are doubtful: none of them decides what the others show.
+constexpr double leastTrust = 0.35;
 constexpr int squaresAcross = 16;
 
 /// Linear light, more dark than bright ones, as in pictures. The same on every computer.
@@ -65,7 +67,7 @@ std::vector<float> trustIn(const MeasuredVenue& venue, const TransportVariance& 
       const double sigma = static_cast<double>(deviation[3 * i + channel]) / (unit * white);
       square += sigma * sigma / 3.0;
     }
-    trust[i] = static_cast<float>(1.0 / (1.0 + ofVariance * square));
+    trust[i] = static_cast<float>(std::max(leastTrust, 1.0 / (1.0 + ofVariance * square)));
   });
   return trust;
 }

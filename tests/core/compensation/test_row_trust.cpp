@@ -25,6 +25,8 @@ TransportVariance varianceOf(const MeasuredVenue& venue, float black, float floo
   return {CameraStack(values, black), CameraStack(values, flood), CameraStack(values, leaf)};
 }
 
+constexpr float least = 0.35f;
+
 double meanOf(const std::vector<float>& values) {
   return std::reduce(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -61,10 +63,16 @@ class TestRowTrust : public QObject {
                              noisy = trustIn(venue, varianceOf(venue, black, flood, leaf)),
                              noisier = trustIn(venue, varianceOf(venue, 4 * black, 4 * flood, 4 * leaf));
     for (std::size_t i = 0; i < noisy.size(); ++i) {
-      QVERIFY(noisier[i] > 0.0f && noisier[i] <= noisy[i] && noisy[i] <= known[i] && known[i] <= 1.0f);
-      QVERIFY(venue.usable[i] == 0 || noisier[i] < noisy[i]);
+      QVERIFY(noisier[i] >= least && noisier[i] <= noisy[i] && noisy[i] <= known[i] && known[i] <= 1.0f);
+      QVERIFY(venue.usable[i] == 0 || noisier[i] < noisy[i] || noisier[i] == least);
     }
     QVERIFY(meanOf(noisier) < meanOf(noisy) && meanOf(noisy) < meanOf(known));
+  }
+
+  /// Law: where all is doubtful, all counts alike.
+  void nothingDecidesAloneWhereAllIsDoubtful() {
+    const MeasuredVenue venue = venueOf(makeScene({}));
+    for (float trust : trustIn(venue, varianceOf(venue, 1.0f, 1.0f, 1.0f))) QCOMPARE(trust, least);
   }
 
   /// Another exposure's units are no other doubts.

@@ -67,7 +67,8 @@ Asked askedOf(const EngineScene& made, const Target& target, const CameraStack& 
         luminance += image::luminanceWeights[c] * static_cast<double>(asked.light[k] + black);
       }
       if (asked.weight[i] > 0.0f)
-        asked.weight[i] = target.viewWeight[camera] * (reachable ? 1.0f : unreachableWeightOf(made.target)) *
+        asked.weight[i] = target.viewWeight[camera] * relianceOn(made.venue, i) *
+                          (reachable ? 1.0f : unreachableWeightOf(made.target)) *
                           sensitivity(static_cast<float>(luminance) / target.white[0]);
     }
   return asked;

@@ -72,7 +72,15 @@ Json toJson(const Rasters& rasters) {
 }
 
 Rasters rastersFrom(const Json& json) {
-  return Rasters(sizesFrom(json));
+  std::vector<Size> sizes = sizesFrom(json);
+  for (const Size& size : sizes)
+    if (size.empty())
+      throw Error(ErrorKind::format,
+                  RELUCENT_ENGLISH_MESSAGE("calibration.device-without-pixels",
+                                           "the calibration tells of a device of {} pixels")
+                      .with(as::size(size)),
+                  damagedAdvice);
+  return Rasters(std::move(sizes));
 }
 
 std::vector<image::Image> readImages(const StageResult& result, const std::string& map,

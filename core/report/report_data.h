@@ -25,7 +25,7 @@ namespace relucent::report {
 struct ReportComparison {
   std::string name;                                             // "Evening hills"
   compensation::Method method = compensation::Method::refined;  // of `compensated`
-  image::Image wanted;                  // light under an even white, as the two after it
+  image::Image wanted;  // light under an even white, as the two after it
   image::Image uncompensated;
   image::Image compensated;
   std::array<float, 3> white{};         // signal of the content's white

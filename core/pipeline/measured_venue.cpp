@@ -14,6 +14,7 @@
 #include "relucent/compensation/direct_light.h"
 #include "relucent/compensation/row_trust.h"
 #include "relucent/pipeline/kept_windows.h"
+#include "relucent/pipeline/not_finished.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
 
@@ -27,13 +28,7 @@ MeasuredCalibration read(const calibration::CalibrationFolder& folder, Held held
   // While it is measured again, with these or other settings, the earlier measurement is used.
   auto linearization = calibration::resultOf(folder, calibration::Stage::linearization);
   auto acquisition = calibration::resultOf(folder, calibration::Stage::acquisition);
-  if (!linearization || !acquisition)
-    throw Error(
-        ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.not-finished", "the calibration is not finished"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.resume-first", "finish it first: relucent-cli resume {}")
-            .with(folder.path().string()),
-        folder.path().string());
+  if (!linearization || !acquisition) throw notFinished(folder.path());
   MeasuredCalibration measured;
   measured.rig = settings.rig;
   measured.reductions = reductionsOf(folder);

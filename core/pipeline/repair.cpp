@@ -18,6 +18,7 @@
 #include "relucent/pipeline/kept_windows.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/moved_content.h"
+#include "relucent/pipeline/not_finished.h"
 #include "relucent/pipeline/projection_photographs.h"
 #include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/sets.h"
@@ -149,13 +150,7 @@ class Repairing {
         progress.part(0.15, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
     const auto stored = calibration::currentResultOf(folder, Stage::acquisition);
     // What is measured anew would be mixed with what is repaired.
-    if (!stored)
-      throw Error(
-          ErrorKind::input,
-          RELUCENT_ENGLISH_MESSAGE("calibration.not-finished", "the calibration is not finished"),
-          RELUCENT_ENGLISH_MESSAGE("calibration.resume-first", "finish it first: relucent-cli resume {}")
-              .with(path.string()),
-          path.string());
+    if (!stored) throw notFinished(path);
     measured_ = loadCalibration(folder, former_, loading);
     formerFolder_ = stored->folder.filename().string();
     inputs_ = stored->inputs;

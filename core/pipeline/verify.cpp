@@ -8,6 +8,7 @@
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/image/stack_files.h"
 #include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/not_finished.h"
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::pipeline {
@@ -40,13 +41,7 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigS
   CalibrateSettings calibrated = settingsOf(folder);
   auto linearized = calibration::resultOf(folder, calibration::Stage::linearization);
   auto acquired = calibration::resultOf(folder, calibration::Stage::acquisition);
-  if (!linearized || !acquired)
-    throw Error(
-        ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.not-finished", "the calibration is not finished"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.resume-first", "finish it first: relucent-cli resume {}")
-            .with(path.string()),
-        path.string());
+  if (!linearized || !acquired) throw notFinished(path);
   linearization::Linearization linearization = calibration::loadLinearization(*linearized);
   transport::Acquisition acquisition = calibration::loadAcquisition(*acquired);
   progress.report(0.2);

@@ -32,8 +32,13 @@ double dots(double points) {
   return points * resolution / 72.0;
 }
 
+/// Without the shapes that a type face has for the same character in different places, as Inter's colon
+/// between digits: the file then knows what they look like and not what they say, to whoever searches or
+/// copies.
 QFont paperFont(double points) {
-  return QFont(QStringList{"Inter", "Noto Sans"}, static_cast<int>(points));
+  QFont font(QStringList{"Inter", "Noto Sans"}, static_cast<int>(points));
+  font.setStyleStrategy(QFont::PreferNoShaping);
+  return font;
 }
 
 /// The report on the pages of a PDF file.

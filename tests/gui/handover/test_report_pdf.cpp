@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <QProcess>
 #include <QRegularExpression>
+#include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QThread>
 #include <QtTest>
@@ -69,6 +71,27 @@ class TestReportPdf : public QObject {
     QVERIFY(pdf.count("/Type /Page\n") >= 1);
     // The pictures of flood, reachable light and black, and the charts.
     QVERIFY2(pdf.count("/Subtype /Image") >= 5, QByteArray::number(pdf.count("/Subtype /Image")));
+  }
+
+  /// What is searched for, copied, or read aloud.
+  void itsTextIsWhatTheReportSays_data() {
+    QTest::addColumn<QString>("text");
+    for (const char* text : {"measured at 12:30:05", "256 × 192 pixels", "-0.5 to 3.2 dB", "1 -> 2 => 3",
+                             "fi ffi fl", "0x1F (2x4)", "Größe, Élan, ΔE₀₀ 1.5 %"})
+      QTest::newRow(text) << QString::fromUtf8(text);
+  }
+  void itsTextIsWhatTheReportSays() {
+    QFETCH(QString, text);
+    const QString reader = QStandardPaths::findExecutable("pdftotext");
+    if (reader.isEmpty()) QSKIP("pdftotext is not installed (poppler-utils)");
+    writeReportPdf("<html><head><title>Law</title></head><body><h1>" + text.toHtmlEscaped() + "</h1><p>" +
+                       text.toHtmlEscaped() + "</p></body></html>",
+                   file_);
+    QProcess reading;
+    reading.start(reader, {file_, "-"});
+    QVERIFY(reading.waitForFinished());
+    const QString found = QString::fromUtf8(reading.readAllStandardOutput());
+    QVERIFY2(found.count(text) >= 2, qPrintable(found));
   }
 
   /// Law: in a wide table names and figures stay whole, and what is read has a quarter of the page.

@@ -3246,10 +3246,6 @@
         <translation>مدة القياس: %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>أكّد أن القاعة خالية.</translation>
-    </message>
-    <message>
         <source>Leave the room dark and still, then start.</source>
         <translation>اترك القاعة مظلمة وساكنة، ثم ابدأ.</translation>
     </message>
@@ -4117,6 +4113,10 @@
     <message>
         <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
         <translation>ينتهي: ما بُدئ يُصوَّر حتى آخره مع أنماط اختبار، ثم يُحفظ كله.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>أكّد أن القاعة خالية: الأنماط تومض.</translation>
     </message>
 </context>
 <context>
@@ -5325,10 +5325,6 @@
         <translation>مدة القياس: %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>أكّد أن القاعة خالية.</translation>
-    </message>
-    <message>
         <source>Plan acquisition</source>
         <translation>تخطيط القياس</translation>
     </message>
@@ -5613,6 +5609,10 @@
     <message>
         <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
         <translation>الصور يناقض بعضها بعضًا. تأكد من أن لا شيء يغطي العدسة، ثم أعد القياس.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>أكّد أن القاعة خالية: الأنماط تومض.</translation>
     </message>
 </context>
 <context>
@@ -6477,10 +6477,6 @@ projector %2</source>
         <translation>الشاشة مفصولة</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>أكّد أن القاعة خالية.</translation>
-    </message>
-    <message>
         <source>The surface does not look as predicted. Find out whether something moved.</source>
         <translation>لا يبدو السطح كما كان متوقعًا. تحقّق هل تحرّك شيء.</translation>
     </message>
@@ -6977,10 +6973,6 @@ projector %2</source>
         <translation>مدة بقاء الصورة</translation>
     </message>
     <message>
-        <source>Choose a picture: only pictures stand.</source>
-        <translation>اختر صورة: الصور وحدها تبقى مدة محددة.</translation>
-    </message>
-    <message>
         <source>Photographed %1.</source>
         <translation>التُقطت في ⁨%1⁩.</translation>
     </message>
@@ -7199,6 +7191,30 @@ projector %2</source>
     <message>
         <source>Whoever is in the room reads them over the picture.</source>
         <translation>يقرؤها من في القاعة فوق الصورة.</translation>
+    </message>
+    <message>
+        <source>Installed as it is. %1</source>
+        <translation>ثُبّت العرض كما هو. %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>أكّد أن القاعة خالية: الأنماط تومض.</translation>
+    </message>
+    <message>
+        <source>No picture has come yet: black</source>
+        <translation>لم تصل أي صورة بعد: أسود</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: black</source>
+        <translation>انقطعت الصورة المباشرة: أسود</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: its last one stands</source>
+        <translation>انقطعت الصورة المباشرة: تبقى آخر صورة</translation>
+    </message>
+    <message>
+        <source>A film plays to its end.</source>
+        <translation>يُعرض الفيلم حتى نهايته.</translation>
     </message>
 </context>
 <context>
@@ -11049,6 +11065,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stream.end-other</name>
+    <message>
+        <source>end that program, or send to another port</source>
+        <translation>أنهِ ذلك البرنامج، أو أرسل إلى منفذ آخر</translation>
+    </message>
+</context>
+<context>
     <name>stream.ended</name>
     <message>
         <source>it has ended</source>
@@ -11060,6 +11083,13 @@ projector %2</source>
     <message>
         <source>its host is not found</source>
         <translation>لم يُعثر على مضيفه</translation>
+    </message>
+</context>
+<context>
+    <name>stream.list-once</name>
+    <message>
+        <source>put it into the playlist once</source>
+        <translation>ضعه في قائمة التشغيل مرة واحدة</translation>
     </message>
 </context>
 <context>
@@ -11088,6 +11118,20 @@ projector %2</source>
     <message>
         <source>it has given no picture yet</source>
         <translation>لم يعطِ أي صورة بعد</translation>
+    </message>
+</context>
+<context>
+    <name>stream.open-already</name>
+    <message>
+        <source>this program plays it already</source>
+        <translation>هذا البرنامج يعرضه بالفعل</translation>
+    </message>
+</context>
+<context>
+    <name>stream.port-in-use</name>
+    <message>
+        <source>another program receives at its port</source>
+        <translation>برنامج آخر يستقبل على منفذه</translation>
     </message>
 </context>
 <context>

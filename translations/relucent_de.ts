@@ -3218,10 +3218,6 @@
         <translation>Gemessen in %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Bestätigen Sie, dass der Raum geräumt ist.</translation>
-    </message>
-    <message>
         <source>Leave the room dark and still, then start.</source>
         <translation>Lassen Sie den Raum dunkel und ruhig, dann starten Sie.</translation>
     </message>
@@ -4029,6 +4025,10 @@
     <message>
         <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
         <translation>Endet: Was begonnen ist, wird zu Ende fotografiert, dazu Testmuster. Dann wird alles behalten.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Bestätigen Sie, dass der Raum geräumt ist: Die Muster blitzen.</translation>
     </message>
 </context>
 <context>
@@ -5205,10 +5205,6 @@
         <translation>Gemessen in %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Bestätigen Sie, dass der Raum geräumt ist.</translation>
-    </message>
-    <message>
         <source>Plan acquisition</source>
         <translation>Erfassung planen</translation>
     </message>
@@ -5485,6 +5481,10 @@
     <message>
         <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
         <translation>Die Fotos widersprechen einander. Dafür sorgen, dass nichts das Objektiv verdeckt, dann noch einmal messen.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Bestätigen Sie, dass der Raum geräumt ist: Die Muster blitzen.</translation>
     </message>
 </context>
 <context>
@@ -6333,10 +6333,6 @@ Projektor %2</translation>
         <translation>Bildschirm getrennt</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Bestätigen Sie, dass der Raum geräumt ist.</translation>
-    </message>
-    <message>
         <source>The surface does not look as predicted. Find out whether something moved.</source>
         <translation>Die Fläche sieht nicht aus wie vorhergesagt. Prüfen Sie, ob sich etwas bewegt hat.</translation>
     </message>
@@ -6833,10 +6829,6 @@ Projektor %2</translation>
         <translation>Bild steht für</translation>
     </message>
     <message>
-        <source>Choose a picture: only pictures stand.</source>
-        <translation>Wählen Sie ein Bild: Nur Bilder stehen.</translation>
-    </message>
-    <message>
         <source>Photographed %1.</source>
         <translation>Fotografiert %1.</translation>
     </message>
@@ -7055,6 +7047,30 @@ Projektor %2</translation>
     <message>
         <source>Whoever is in the room reads them over the picture.</source>
         <translation>Wer im Raum ist, liest sie über dem Bild.</translation>
+    </message>
+    <message>
+        <source>Installed as it is. %1</source>
+        <translation>Installiert, wie es ist. %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Bestätigen Sie, dass der Raum geräumt ist: Die Muster blitzen.</translation>
+    </message>
+    <message>
+        <source>No picture has come yet: black</source>
+        <translation>Noch ist kein Bild gekommen: schwarz</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: black</source>
+        <translation>Das Live-Bild ist verloren: schwarz</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: its last one stands</source>
+        <translation>Das Live-Bild ist verloren: sein letztes steht</translation>
+    </message>
+    <message>
+        <source>A film plays to its end.</source>
+        <translation>Ein Film läuft bis zu seinem Ende.</translation>
     </message>
 </context>
 <context>
@@ -10841,6 +10857,13 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>stream.end-other</name>
+    <message>
+        <source>end that program, or send to another port</source>
+        <translation>beenden Sie dieses Programm, oder senden Sie an einen anderen Port</translation>
+    </message>
+</context>
+<context>
     <name>stream.ended</name>
     <message>
         <source>it has ended</source>
@@ -10852,6 +10875,13 @@ Projektor %2</translation>
     <message>
         <source>its host is not found</source>
         <translation>sein Host wird nicht gefunden</translation>
+    </message>
+</context>
+<context>
+    <name>stream.list-once</name>
+    <message>
+        <source>put it into the playlist once</source>
+        <translation>nehmen Sie ihn nur einmal in die Playlist auf</translation>
     </message>
 </context>
 <context>
@@ -10880,6 +10910,20 @@ Projektor %2</translation>
     <message>
         <source>it has given no picture yet</source>
         <translation>er hat noch kein Bild geliefert</translation>
+    </message>
+</context>
+<context>
+    <name>stream.open-already</name>
+    <message>
+        <source>this program plays it already</source>
+        <translation>dieses Programm spielt ihn schon</translation>
+    </message>
+</context>
+<context>
+    <name>stream.port-in-use</name>
+    <message>
+        <source>another program receives at its port</source>
+        <translation>an seinem Port empfängt ein anderes Programm</translation>
     </message>
 </context>
 <context>

@@ -3218,10 +3218,6 @@
         <translation>Medido en %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Confirme que la sala está despejada.</translation>
-    </message>
-    <message>
         <source>Leave the room dark and still, then start.</source>
         <translation>Deje la sala a oscuras y sin movimiento y empiece.</translation>
     </message>
@@ -4029,6 +4025,10 @@
     <message>
         <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
         <translation>Terminando: lo empezado se fotografía hasta el final, y patrones de prueba. Después se guarda todo.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Confirme que la sala está despejada: los patrones destellan.</translation>
     </message>
 </context>
 <context>
@@ -5205,10 +5205,6 @@
         <translation>Medido en %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Confirme que la sala está despejada.</translation>
-    </message>
-    <message>
         <source>Plan acquisition</source>
         <translation>Preparar adquisición</translation>
     </message>
@@ -5485,6 +5481,10 @@
     <message>
         <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
         <translation>Las fotografías se contradicen. Compruebe que nada tape el objetivo y mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Confirme que la sala está despejada: los patrones destellan.</translation>
     </message>
 </context>
 <context>
@@ -6333,10 +6333,6 @@ proyector %2</translation>
         <translation>Pantalla desconectada</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Confirme que la sala está despejada.</translation>
-    </message>
-    <message>
         <source>The surface does not look as predicted. Find out whether something moved.</source>
         <translation>La superficie no se ve como se predijo. Averigüe si algo se movió.</translation>
     </message>
@@ -6833,10 +6829,6 @@ proyector %2</translation>
         <translation>La imagen permanece</translation>
     </message>
     <message>
-        <source>Choose a picture: only pictures stand.</source>
-        <translation>Elija una imagen: solo las imágenes permanecen.</translation>
-    </message>
-    <message>
         <source>Photographed %1.</source>
         <translation>Fotografiada: %1.</translation>
     </message>
@@ -7055,6 +7047,30 @@ proyector %2</translation>
     <message>
         <source>Whoever is in the room reads them over the picture.</source>
         <translation>Quien está en la sala las lee sobre la imagen.</translation>
+    </message>
+    <message>
+        <source>Installed as it is. %1</source>
+        <translation>Instalado tal como está. %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Confirme que la sala está despejada: los patrones destellan.</translation>
+    </message>
+    <message>
+        <source>No picture has come yet: black</source>
+        <translation>Aún no ha llegado ninguna imagen: negro</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: black</source>
+        <translation>Se ha perdido la imagen en directo: negro</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: its last one stands</source>
+        <translation>Se ha perdido la imagen en directo: queda la última</translation>
+    </message>
+    <message>
+        <source>A film plays to its end.</source>
+        <translation>Una película se reproduce hasta el final.</translation>
     </message>
 </context>
 <context>
@@ -10841,6 +10857,13 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stream.end-other</name>
+    <message>
+        <source>end that program, or send to another port</source>
+        <translation>cierre ese programa o envíe a otro puerto</translation>
+    </message>
+</context>
+<context>
     <name>stream.ended</name>
     <message>
         <source>it has ended</source>
@@ -10852,6 +10875,13 @@ proyector %2</translation>
     <message>
         <source>its host is not found</source>
         <translation>no se encuentra su host</translation>
+    </message>
+</context>
+<context>
+    <name>stream.list-once</name>
+    <message>
+        <source>put it into the playlist once</source>
+        <translation>póngalo una sola vez en la lista de reproducción</translation>
     </message>
 </context>
 <context>
@@ -10880,6 +10910,20 @@ proyector %2</translation>
     <message>
         <source>it has given no picture yet</source>
         <translation>aún no ha dado ninguna imagen</translation>
+    </message>
+</context>
+<context>
+    <name>stream.open-already</name>
+    <message>
+        <source>this program plays it already</source>
+        <translation>este programa ya lo reproduce</translation>
+    </message>
+</context>
+<context>
+    <name>stream.port-in-use</name>
+    <message>
+        <source>another program receives at its port</source>
+        <translation>otro programa recibe en su puerto</translation>
     </message>
 </context>
 <context>

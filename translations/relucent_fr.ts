@@ -3218,10 +3218,6 @@
         <translation>Mesuré en %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Confirmez que la salle est évacuée.</translation>
-    </message>
-    <message>
         <source>Leave the room dark and still, then start.</source>
         <translation>Gardez la salle sombre et sans mouvement, puis démarrez.</translation>
     </message>
@@ -4029,6 +4025,10 @@
     <message>
         <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
         <translation>Fin en cours : ce qui est commencé est photographié jusqu’au bout, ainsi que des motifs de test. Ensuite, tout est conservé.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Confirmez que la salle est évacuée : les motifs clignotent.</translation>
     </message>
 </context>
 <context>
@@ -5205,10 +5205,6 @@
         <translation>Mesuré en %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Confirmez que la salle est évacuée.</translation>
-    </message>
-    <message>
         <source>Plan acquisition</source>
         <translation>Régler l’acquisition</translation>
     </message>
@@ -5485,6 +5481,10 @@
     <message>
         <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
         <translation>Les photos se contredisent. Vérifiez que rien ne masque l’objectif, puis mesurez de nouveau.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Confirmez que la salle est évacuée : les motifs clignotent.</translation>
     </message>
 </context>
 <context>
@@ -6333,10 +6333,6 @@ projecteur %2</translation>
         <translation>Écran débranché</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Confirmez que la salle est évacuée.</translation>
-    </message>
-    <message>
         <source>The surface does not look as predicted. Find out whether something moved.</source>
         <translation>La surface n’a pas l’aspect prévu. Vérifiez si quelque chose a bougé.</translation>
     </message>
@@ -6833,10 +6829,6 @@ projecteur %2</translation>
         <translation>Image affichée pendant</translation>
     </message>
     <message>
-        <source>Choose a picture: only pictures stand.</source>
-        <translation>Choisissez une image : seules les images ont une durée.</translation>
-    </message>
-    <message>
         <source>Photographed %1.</source>
         <translation>Photographiée : %1.</translation>
     </message>
@@ -7055,6 +7047,30 @@ projecteur %2</translation>
     <message>
         <source>Whoever is in the room reads them over the picture.</source>
         <translation>Ceux qui sont dans la salle les lisent sur l’image.</translation>
+    </message>
+    <message>
+        <source>Installed as it is. %1</source>
+        <translation>Installé en l’état. %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Confirmez que la salle est évacuée : les motifs clignotent.</translation>
+    </message>
+    <message>
+        <source>No picture has come yet: black</source>
+        <translation>Aucune image n’est encore arrivée : noir</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: black</source>
+        <translation>L’image en direct est perdue : noir</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: its last one stands</source>
+        <translation>L’image en direct est perdue : la dernière reste</translation>
+    </message>
+    <message>
+        <source>A film plays to its end.</source>
+        <translation>Un film est lu jusqu’à sa fin.</translation>
     </message>
 </context>
 <context>
@@ -10841,6 +10857,13 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stream.end-other</name>
+    <message>
+        <source>end that program, or send to another port</source>
+        <translation>fermez ce programme, ou envoyez vers un autre port</translation>
+    </message>
+</context>
+<context>
     <name>stream.ended</name>
     <message>
         <source>it has ended</source>
@@ -10852,6 +10875,13 @@ projecteur %2</translation>
     <message>
         <source>its host is not found</source>
         <translation>son hôte est introuvable</translation>
+    </message>
+</context>
+<context>
+    <name>stream.list-once</name>
+    <message>
+        <source>put it into the playlist once</source>
+        <translation>ne le mettez qu’une fois dans la liste de lecture</translation>
     </message>
 </context>
 <context>
@@ -10880,6 +10910,20 @@ projecteur %2</translation>
     <message>
         <source>it has given no picture yet</source>
         <translation>il n’a encore donné aucune image</translation>
+    </message>
+</context>
+<context>
+    <name>stream.open-already</name>
+    <message>
+        <source>this program plays it already</source>
+        <translation>ce programme le diffuse déjà</translation>
+    </message>
+</context>
+<context>
+    <name>stream.port-in-use</name>
+    <message>
+        <source>another program receives at its port</source>
+        <translation>un autre programme reçoit sur son port</translation>
     </message>
 </context>
 <context>

@@ -3218,10 +3218,6 @@
         <translation>Misurato in %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Confermare che la sala è sgombra.</translation>
-    </message>
-    <message>
         <source>Leave the room dark and still, then start.</source>
         <translation>Tenere la sala buia e immobile, poi avviare.</translation>
     </message>
@@ -4029,6 +4025,10 @@
     <message>
         <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
         <translation>In chiusura: ciò che è iniziato viene fotografato fino in fondo, con pattern di prova. Poi tutto viene conservato.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Confermare che la sala è sgombra: i pattern lampeggiano.</translation>
     </message>
 </context>
 <context>
@@ -5205,10 +5205,6 @@
         <translation>Misurato in %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Confermare che la sala è sgombra.</translation>
-    </message>
-    <message>
         <source>Plan acquisition</source>
         <translation>Prepara acquisizione</translation>
     </message>
@@ -5485,6 +5481,10 @@
     <message>
         <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
         <translation>Le fotografie si contraddicono. Controllare che nulla copra l’obiettivo, poi misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Confermare che la sala è sgombra: i pattern lampeggiano.</translation>
     </message>
 </context>
 <context>
@@ -6333,10 +6333,6 @@ proiettore %2</translation>
         <translation>Schermo scollegato</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>Confermare che la sala è sgombra.</translation>
-    </message>
-    <message>
         <source>The surface does not look as predicted. Find out whether something moved.</source>
         <translation>La superficie non appare come previsto. Verificare se qualcosa si è mosso.</translation>
     </message>
@@ -6833,10 +6829,6 @@ proiettore %2</translation>
         <translation>L’immagine resta per</translation>
     </message>
     <message>
-        <source>Choose a picture: only pictures stand.</source>
-        <translation>Scegliere un’immagine: solo le immagini hanno una durata.</translation>
-    </message>
-    <message>
         <source>Photographed %1.</source>
         <translation>Fotografata: %1.</translation>
     </message>
@@ -7055,6 +7047,30 @@ proiettore %2</translation>
     <message>
         <source>Whoever is in the room reads them over the picture.</source>
         <translation>Chi è in sala le legge sopra l’immagine.</translation>
+    </message>
+    <message>
+        <source>Installed as it is. %1</source>
+        <translation>Installato così com’è. %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>Confermare che la sala è sgombra: i pattern lampeggiano.</translation>
+    </message>
+    <message>
+        <source>No picture has come yet: black</source>
+        <translation>Non è ancora arrivata alcuna immagine: nero</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: black</source>
+        <translation>L’immagine dal vivo è persa: nero</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: its last one stands</source>
+        <translation>L’immagine dal vivo è persa: resta l’ultima</translation>
+    </message>
+    <message>
+        <source>A film plays to its end.</source>
+        <translation>Un filmato viene riprodotto fino alla fine.</translation>
     </message>
 </context>
 <context>
@@ -10841,6 +10857,13 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stream.end-other</name>
+    <message>
+        <source>end that program, or send to another port</source>
+        <translation>chiudere quel programma o inviare a un’altra porta</translation>
+    </message>
+</context>
+<context>
     <name>stream.ended</name>
     <message>
         <source>it has ended</source>
@@ -10852,6 +10875,13 @@ proiettore %2</translation>
     <message>
         <source>its host is not found</source>
         <translation>il suo host non si trova</translation>
+    </message>
+</context>
+<context>
+    <name>stream.list-once</name>
+    <message>
+        <source>put it into the playlist once</source>
+        <translation>inserirlo una sola volta nella playlist</translation>
     </message>
 </context>
 <context>
@@ -10880,6 +10910,20 @@ proiettore %2</translation>
     <message>
         <source>it has given no picture yet</source>
         <translation>non ha ancora dato alcuna immagine</translation>
+    </message>
+</context>
+<context>
+    <name>stream.open-already</name>
+    <message>
+        <source>this program plays it already</source>
+        <translation>questo programma lo riproduce già</translation>
+    </message>
+</context>
+<context>
+    <name>stream.port-in-use</name>
+    <message>
+        <source>another program receives at its port</source>
+        <translation>un altro programma riceve sulla sua porta</translation>
     </message>
 </context>
 <context>

@@ -3211,10 +3211,6 @@
         <translation>測定時間 %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>退避が完了したことを確認してください。</translation>
-    </message>
-    <message>
         <source>Leave the room dark and still, then start.</source>
         <translation>室内を暗くし、何も動かさずに開始してください。</translation>
     </message>
@@ -4007,6 +4003,10 @@
     <message>
         <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
         <translation>終了中：始めた分と検証パターンを最後まで撮影し、すべて保存します。</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>退避が完了したことを確認してください。パターンは点滅します。</translation>
     </message>
 </context>
 <context>
@@ -5175,10 +5175,6 @@
         <translation>測定時間 %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>退避が完了したことを確認してください。</translation>
-    </message>
-    <message>
         <source>Plan acquisition</source>
         <translation>光輸送測定へ</translation>
     </message>
@@ -5453,6 +5449,10 @@
     <message>
         <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
         <translation>写真どうしが矛盾しています。レンズを覆うものがないことを確かめてから、測定し直してください。</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>退避が完了したことを確認してください。パターンは点滅します。</translation>
     </message>
 </context>
 <context>
@@ -6297,10 +6297,6 @@ projector %2</source>
         <translation>画面が未接続</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>退避が完了したことを確認してください。</translation>
-    </message>
-    <message>
         <source>The surface does not look as predicted. Find out whether something moved.</source>
         <translation>表面が予測どおりに見えません。何かが動いていないか確認してください。</translation>
     </message>
@@ -6797,10 +6793,6 @@ projector %2</source>
         <translation>画像の表示時間</translation>
     </message>
     <message>
-        <source>Choose a picture: only pictures stand.</source>
-        <translation>画像を選んでください。時間を決められるのは画像だけです。</translation>
-    </message>
-    <message>
         <source>Photographed %1.</source>
         <translation>撮影：%1。</translation>
     </message>
@@ -7019,6 +7011,30 @@ projector %2</source>
     <message>
         <source>Whoever is in the room reads them over the picture.</source>
         <translation>会場にいる人には、画像の上に読めます。</translation>
+    </message>
+    <message>
+        <source>Installed as it is. %1</source>
+        <translation>このままインストールされました。%1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>退避が完了したことを確認してください。パターンは点滅します。</translation>
+    </message>
+    <message>
+        <source>No picture has come yet: black</source>
+        <translation>まだ映像が届いていません: 黒</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: black</source>
+        <translation>ライブ映像が途切れました: 黒</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: its last one stands</source>
+        <translation>ライブ映像が途切れました: 最後の映像を表示中</translation>
+    </message>
+    <message>
+        <source>A film plays to its end.</source>
+        <translation>動画は最後まで再生されます。</translation>
     </message>
 </context>
 <context>
@@ -10789,6 +10805,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stream.end-other</name>
+    <message>
+        <source>end that program, or send to another port</source>
+        <translation>そのプログラムを終了するか、別のポートに送信してください</translation>
+    </message>
+</context>
+<context>
     <name>stream.ended</name>
     <message>
         <source>it has ended</source>
@@ -10800,6 +10823,13 @@ projector %2</source>
     <message>
         <source>its host is not found</source>
         <translation>ホストが見つかりません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.list-once</name>
+    <message>
+        <source>put it into the playlist once</source>
+        <translation>プレイリストには1回だけ入れてください</translation>
     </message>
 </context>
 <context>
@@ -10828,6 +10858,20 @@ projector %2</source>
     <message>
         <source>it has given no picture yet</source>
         <translation>まだ映像が届いていません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.open-already</name>
+    <message>
+        <source>this program plays it already</source>
+        <translation>このプログラムで既に再生中です</translation>
+    </message>
+</context>
+<context>
+    <name>stream.port-in-use</name>
+    <message>
+        <source>another program receives at its port</source>
+        <translation>別のプログラムがそのポートで受信しています</translation>
     </message>
 </context>
 <context>

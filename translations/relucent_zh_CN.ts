@@ -3211,10 +3211,6 @@
         <translation>测量用时 %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>请确认已清场。</translation>
-    </message>
-    <message>
         <source>Leave the room dark and still, then start.</source>
         <translation>保持场内黑暗、静止，然后开始。</translation>
     </message>
@@ -4007,6 +4003,10 @@
     <message>
         <source>Ending: what is begun is photographed to its end, and test patterns. Then all of it is kept.</source>
         <translation>正在结束：已开始的部分会拍完，再拍测试图案，然后全部保留。</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>请确认已清场：图案会闪烁。</translation>
     </message>
 </context>
 <context>
@@ -5175,10 +5175,6 @@
         <translation>测量用时 %1</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>请确认已清场。</translation>
-    </message>
-    <message>
         <source>Plan acquisition</source>
         <translation>规划采集</translation>
     </message>
@@ -5453,6 +5449,10 @@
     <message>
         <source>The photographs contradict each other. See that nothing covers the lens, then measure again.</source>
         <translation>照片相互矛盾。请确认没有东西遮挡镜头，然后重新测量。</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>请确认已清场：图案会闪烁。</translation>
     </message>
 </context>
 <context>
@@ -6297,10 +6297,6 @@ projector %2</source>
         <translation>屏幕已断开</translation>
     </message>
     <message>
-        <source>Confirm that the room is clear.</source>
-        <translation>请确认已清场。</translation>
-    </message>
-    <message>
         <source>The surface does not look as predicted. Find out whether something moved.</source>
         <translation>表面与预测不符。请检查是否有东西移动过。</translation>
     </message>
@@ -6797,10 +6793,6 @@ projector %2</source>
         <translation>图片显示时间</translation>
     </message>
     <message>
-        <source>Choose a picture: only pictures stand.</source>
-        <translation>请选择图片：只有图片可设显示时间。</translation>
-    </message>
-    <message>
         <source>Photographed %1.</source>
         <translation>拍摄于 %1。</translation>
     </message>
@@ -7019,6 +7011,30 @@ projector %2</source>
     <message>
         <source>Whoever is in the room reads them over the picture.</source>
         <translation>在场的人会在图像上看到它们。</translation>
+    </message>
+    <message>
+        <source>Installed as it is. %1</source>
+        <translation>已按现状安装。%1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear: the patterns flash.</source>
+        <translation>请确认已清场：图案会闪烁。</translation>
+    </message>
+    <message>
+        <source>No picture has come yet: black</source>
+        <translation>尚未收到画面：黑屏</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: black</source>
+        <translation>实时画面已丢失：黑屏</translation>
+    </message>
+    <message>
+        <source>The live picture is lost: its last one stands</source>
+        <translation>实时画面已丢失：停留在最后一帧</translation>
+    </message>
+    <message>
+        <source>A film plays to its end.</source>
+        <translation>影片会播放到结束。</translation>
     </message>
 </context>
 <context>
@@ -10789,6 +10805,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stream.end-other</name>
+    <message>
+        <source>end that program, or send to another port</source>
+        <translation>请结束该程序，或发送到另一个端口</translation>
+    </message>
+</context>
+<context>
     <name>stream.ended</name>
     <message>
         <source>it has ended</source>
@@ -10800,6 +10823,13 @@ projector %2</source>
     <message>
         <source>its host is not found</source>
         <translation>找不到它的主机</translation>
+    </message>
+</context>
+<context>
+    <name>stream.list-once</name>
+    <message>
+        <source>put it into the playlist once</source>
+        <translation>请只在播放列表中放入一次</translation>
     </message>
 </context>
 <context>
@@ -10828,6 +10858,20 @@ projector %2</source>
     <message>
         <source>it has given no picture yet</source>
         <translation>它尚未给出画面</translation>
+    </message>
+</context>
+<context>
+    <name>stream.open-already</name>
+    <message>
+        <source>this program plays it already</source>
+        <translation>本程序已在播放它</translation>
+    </message>
+</context>
+<context>
+    <name>stream.port-in-use</name>
+    <message>
+        <source>another program receives at its port</source>
+        <translation>另一个程序正在其端口上接收</translation>
     </message>
 </context>
 <context>

@@ -5,11 +5,13 @@
 #include <QHostInfo>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string_view>
 #include <thread>
 
 #include "content/stream_failure.h"
 #include "content/stream_picture.h"
+#include "content/stream_turn.h"
 #include "relucent/base/progress.h"
 
 extern "C" {
@@ -61,6 +63,7 @@ class StreamDecoder::Impl {
     prepareFfmpeg();
     wait(patience_.opening);
     lookUp(address.host);
+    waitForTurn(address.url);
     openInput(address.url.toUtf8());
     openCodec();
   }
@@ -124,6 +127,14 @@ class StreamDecoder::Impl {
     const bool isKnown = !QHostInfo::fromName(host).addresses().isEmpty();
     check();
     if (!isKnown) throw streamHostUnknown();
+  }
+
+  void waitForTurn(const QString& url) {
+    turn_.emplace(url, [this] {
+      if (isUnwanted_()) throw Cancelled();
+      if (isOver()) throw streamOpenAlready();
+    });
+    wait(waited_);
   }
 
   void openInput(const QByteArray& url) {
@@ -227,6 +238,7 @@ class StreamDecoder::Impl {
 
   StreamPatience patience_;
   IsUnwanted isUnwanted_;
+  std::optional<StreamTurn> turn_;  // ends after what it was for
   std::unique_ptr<AVFormatContext, CloseInput> input_;
   std::unique_ptr<AVCodecContext, FreeCodec> codec_;
   std::unique_ptr<AVPacket, FreePacket> packet_;

@@ -28,8 +28,17 @@ Error streamHostUnknown() {
                RELUCENT_MESSAGE("stream.check-host", "check the name in the address, or write the number"));
 }
 
+Error streamOpenAlready() {
+  return Error(ErrorKind::device, RELUCENT_MESSAGE("stream.open-already", "this program plays it already"),
+               RELUCENT_MESSAGE("stream.list-once", "put it into the playlist once"));
+}
+
 Error streamFailure(int code) {
   switch (code) {
+    case AVERROR(EADDRINUSE):
+      return Error(ErrorKind::device,
+                   RELUCENT_MESSAGE("stream.port-in-use", "another program receives at its port"),
+                   RELUCENT_MESSAGE("stream.end-other", "end that program, or send to another port"));
     case AVERROR(ECONNREFUSED):
       return Error(ErrorKind::device, RELUCENT_MESSAGE("stream.refused", "the connection was refused"),
                    RELUCENT_MESSAGE("stream.start-sender", "start the sender, and check the port"));

@@ -16,4 +16,7 @@ Error streamSilent(double seconds, bool hasPlayed);
 
 Error streamHostUnknown();
 
+/// This program listens at its address, and goes on doing so.
+Error streamOpenAlready();
+
 }  // namespace relucent::gui

@@ -108,4 +108,8 @@ bool OutputPlaylist::isStill(const PlaylistItem& item) {
          !QFileInfo(item.path).isDir();
 }
 
+bool OutputPlaylist::standsForSeconds(const PlaylistItem& item) {
+  return isStill(item) || addressOf(item.path).kind != ContentAddress::Kind::file;
+}
+
 }  // namespace relucent::gui

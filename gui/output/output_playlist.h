@@ -45,6 +45,8 @@ class OutputPlaylist : public QObject {
   static QString nameOf(const QString& path);
   /// A picture that stands, which can be photographed and compared.
   static bool isStill(const PlaylistItem& item);
+  /// It stands for its own seconds, as pictures and what is live do; a film plays to its end.
+  static bool standsForSeconds(const PlaylistItem& item);
 
  Q_SIGNALS:
   void changed();

@@ -190,7 +190,7 @@ QString AcquirePage::hint() const {
     const QString spent = text(spentDuration(cost().value_or(calibration::StageCost()).seconds));
     return stoppedAt() > 0 ? tr("Stopped after %1").arg(spent) : tr("Measured in %1").arg(spent);
   }
-  if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
+  if (!session_.mayMeasure()) return tr("Confirm that the room is clear: the patterns flash.");
   if (auto work = kept_ == 0 ? expected() : std::nullopt) {
     const int patterns = patternsExpected();
     return groupedText(tr("About %n pattern(s), %1. Leave the room dark and still.", nullptr, patterns),

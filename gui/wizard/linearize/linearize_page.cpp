@@ -96,7 +96,7 @@ QString LinearizePage::hint() const {
     if (!addsUp()) return tr("The colours do not add up. Continuing is recorded in the report.");
     if (auto took = seconds()) return tr("Measured in %1").arg(text(spentDuration(*took)));
   }
-  if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
+  if (!session_.mayMeasure()) return tr("Confirm that the room is clear: the patterns flash.");
   return tr("About %n test pattern(s)", nullptr,
             linearization::usualShots(session_.settings().linearization, projectors()));
 }

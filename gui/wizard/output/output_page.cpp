@@ -204,34 +204,16 @@ QString OutputPage::hint() const {
     return tr("The output is open here and in another program: whose picture is seen is not known. End one.");
   if (playsEarlier()) return tr("What plays is not what was measured or chosen last. Show that first.");
   if (isOpen()) {
-    switch (proof_.next()) {
-      case OutputProof::Next::photograph:
-        if (isBlack() || isFrozen() || showsChart() || isInstalled()) return playingHint();
-        if (isInstallable() && isJudged())
-          return tr("Take a verification photograph. What was found before is not settled.");
-        return isInstallable()
-                   ? tr("Take a verification photograph, or install without proof.")
-                   : tr("Take a verification photograph: it proves that the venue is measured well.");
-      case OutputProof::Next::checkDrift:
-        return needsConsent()
-                   ? tr("Confirm that the room is clear.")
-                   : tr("The surface does not look as predicted. Find out whether something moved.");
-      case OutputProof::Next::pushBack:
-        return tr("The camera's view has moved. Put it back, then photograph again.");
-      case OutputProof::Next::repair:
-        return needsConsent() ? tr("Confirm that the room is clear.")
-                              : tr("Something has changed since it was measured. Repair the calibration: "
-                                   "only that is measured again.");
-      case OutputProof::Next::measureAgain:
-        return tr("Something has changed since it was measured. Measure again, then install.");
-      case OutputProof::Next::aimAgain:
-        return proof_.isBeyondRepair()
-                   ? tr("Hardly anything fits. Put the camera back, or aim and measure again.")
-                   : tr("Hardly anything fits. Put the camera back, repair the calibration, or aim and "
-                        "measure again.");
-      case OutputProof::Next::install:
-        return playingHint();
-    }
+    const OutputProof::Next next = proof_.next();
+    if (next == OutputProof::Next::install) return playingHint();
+    if (next != OutputProof::Next::photograph)
+      // Installed all the same: what was found of it stands.
+      return isInstalled() ? tr("Installed as it is. %1").arg(doubtedHint()) : doubtedHint();
+    if (isBlack() || isFrozen() || showsChart() || isInstalled()) return playingHint();
+    if (!isInstallable())
+      return tr("Take a verification photograph: it proves that the venue is measured well.");
+    return isJudged() ? tr("Take a verification photograph. What was found before is not settled.")
+                      : tr("Take a verification photograph, or install without proof.");
   }
   if (session_.isAnotherVenueShown())
     return tr("Another program plays a show of another venue on this projector.");
@@ -241,6 +223,32 @@ QString OutputPage::hint() const {
   if (isOnPageOnly()) return tr("This rehearsal plays on this page only: nothing is projected.");
   if (coversOperator()) return tr("The output will cover this window. Esc closes the output.");
   return tr("Nothing is projected before you open the output.");
+}
+
+/// Of what is shown and does not look as it should: what helps.
+QString OutputPage::doubtedHint() const {
+  switch (proof_.next()) {
+    case OutputProof::Next::photograph:
+    case OutputProof::Next::install:
+      break;
+    case OutputProof::Next::checkDrift:
+      return needsConsent() ? tr("Confirm that the room is clear: the patterns flash.")
+                            : tr("The surface does not look as predicted. Find out whether something moved.");
+    case OutputProof::Next::pushBack:
+      return tr("The camera's view has moved. Put it back, then photograph again.");
+    case OutputProof::Next::repair:
+      return needsConsent() ? tr("Confirm that the room is clear: the patterns flash.")
+                            : tr("Something has changed since it was measured. Repair the calibration: "
+                                 "only that is measured again.");
+    case OutputProof::Next::measureAgain:
+      return tr("Something has changed since it was measured. Measure again, then install.");
+    case OutputProof::Next::aimAgain:
+      return proof_.isBeyondRepair()
+                 ? tr("Hardly anything fits. Put the camera back, or aim and measure again.")
+                 : tr("Hardly anything fits. Put the camera back, repair the calibration, or aim and "
+                      "measure again.");
+  }
+  return {};
 }
 
 /// What was found of it last asks for more than a photograph.

@@ -186,6 +186,7 @@ class OutputPage : public DevicePage {
   bool coversOperator() const;
   bool isOnPageOnly() const;
   QString playingHint() const;
+  QString doubtedHint() const;
   QString photographicWork() const;
   QString screenHint(std::size_t projector) const;
   QString missingScreenOf(std::size_t projector) const;

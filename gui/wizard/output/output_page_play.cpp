@@ -51,7 +51,7 @@ void OutputPage::setFade(double seconds) {
 
 void OutputPage::setPictureSeconds(qsizetype index, double seconds) {
   PlaylistSettings after = playlist_.settings();
-  if (index < 0 || index >= after.items.size() || !OutputPlaylist::isStill(after.items[index])) return;
+  if (index < 0 || index >= after.items.size() || !OutputPlaylist::standsForSeconds(after.items[index])) return;
   after.items[index].seconds = seconds;
   edit(tr("Time of a picture"), after);
 }

@@ -265,11 +265,11 @@ QWidget* playlistPart(OutputPage& page) {
     for (QWidget* widget : std::initializer_list<QWidget*>{fade, fadeRow, timeLabel, time})
       widget->setVisible(several);
     const int chosen = list->currentRow();
-    const bool isPicture =
-        chosen >= 0 && chosen < settings.items.size() && OutputPlaylist::isStill(settings.items[chosen]);
-    setPossible(time, isPicture ? QString() : OutputPage::tr("Choose a picture: only pictures stand."));
+    const bool stands = chosen >= 0 && chosen < settings.items.size() &&
+                        OutputPlaylist::standsForSeconds(settings.items[chosen]);
+    setPossible(time, stands ? QString() : OutputPage::tr("A film plays to its end."));
     const bool isTyped = time->findChild<QLineEdit*>()->isModified();
-    if (isPicture && !(time->hasFocus() && isTyped)) time->setValue(settings.items[chosen].seconds);
+    if (stands && !(time->hasFocus() && isTyped)) time->setValue(settings.items[chosen].seconds);
     setPossible(remove, settings.items.isEmpty() ? OutputPage::tr("The playlist is empty.") : QString());
     const std::vector<Playlist::Skipped> wrong = page.projection().skipped();
     skipped->setVisible(!wrong.empty());

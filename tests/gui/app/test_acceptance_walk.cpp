@@ -357,7 +357,7 @@ class TestAcceptanceWalk : public QObject {
     SEEN(seen.part("banner-sentence").text == "The last session ended before it was finished" &&
          seen.says("patterns are safe"));
     SEEN(seen.part("primary").text == "Resume" && !seen.part("primary").isEnabled &&
-         seen.part("hint").text == "Confirm that the room is clear.");
+         seen.part("hint").text == "Confirm that the room is clear: the patterns flash.");
     TRY_DO(program_->click("room-is-clear"));
     room_->setLeastInterval({});
     TRY_DO(program_->click("primary"));

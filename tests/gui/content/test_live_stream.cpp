@@ -190,6 +190,32 @@ class TestLiveStream : public QObject {
     QTRY_VERIFY(played.isReady());
   }
 
+  /// Its own last try must not be in the way of the next one.
+  void whatNobodySendsIsSilentEachTime_data() {
+    QTest::addColumn<QString>("kind");
+    for (const char* kind : {"udp", "rtp"}) QTest::newRow(kind) << kind;
+  }
+  void whatNobodySendsIsSilentEachTime() {
+    QFETCH(QString, kind);
+    const QString url = QString("%1://127.0.0.1:%2").arg(kind).arg(freeUdpPort());
+    Played played(url, {300ms, 400ms});
+    QElapsedTimer watched;
+    for (watched.start(); watched.elapsed() < 3'000; played.picture()) {
+      if (!played.problem().empty())
+        QVERIFY2(mentions(played.problem(), "no picture came"), played.problem().c_str());
+      QTest::qWait(20);
+    }
+    QVERIFY(!played.problem().empty());
+    // Nor that of a show that is opened again.
+    Played again(url, {300ms, 400ms});
+    played.end();
+    for (watched.start(); watched.elapsed() < 2'000; again.picture()) {
+      if (!again.problem().empty())
+        QVERIFY2(mentions(again.problem(), "no picture came"), again.problem().c_str());
+      QTest::qWait(20);
+    }
+  }
+
   void anUnknownHostIsNamedSo() {
     Played played("http://nowhere.invalid/live", {20'000ms, 400ms});
     QTRY_COMPARE_WITH_TIMEOUT(played.state().phase, Phase::lost, 20'000);

@@ -56,7 +56,7 @@ class TestPreferences : public QObject {
     session.begin(folder_.filePath("real").toStdString(), settings);
     QVERIFY(session.needsConsent());
     QVERIFY(!linearize.primary()->isEnabled() && !acquire.primary()->isEnabled());
-    QCOMPARE(linearize.hint(), LinearizePage::tr("Confirm that the room is clear."));
+    QCOMPARE(linearize.hint(), LinearizePage::tr("Confirm that the room is clear: the patterns flash."));
     session.setRoomClear(true);
     QVERIFY(linearize.primary()->isEnabled() && acquire.primary()->isEnabled());
     // It is asked for each time.

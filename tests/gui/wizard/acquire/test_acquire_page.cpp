@@ -430,7 +430,7 @@ class TestAcquirePage : public QObject {
     page.refresh();
     QVERIFY(!page.primary()->isEnabled() && page.hasRemedy());
     QCOMPARE(page.primary()->toolTip(), page.hint());
-    QCOMPARE(page.hint(), AcquirePage::tr("Confirm that the room is clear."));
+    QCOMPARE(page.hint(), AcquirePage::tr("Confirm that the room is clear: the patterns flash."));
     session_->setRoomClear(true);
     QVERIFY(page.primary()->isEnabled() && !page.hasRemedy());
   }

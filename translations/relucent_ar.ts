@@ -4118,6 +4118,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>أكّد أن القاعة خالية: الأنماط تومض.</translation>
     </message>
+    <message>
+        <source>%1: all patterns are taken again, from the first.</source>
+        <translation>%1: تُلتقط كل الأنماط من جديد، من أولها.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -7533,8 +7537,8 @@ projector %2</source>
         <translation>جارٍ التوقّع</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. Nothing is projected yet.</source>
-        <translation>متوقّع من القياس. لا يُعرض شيء بعد.</translation>
+        <source>Predicted from the measurement. Nothing is projected now.</source>
+        <translation>متوقّع من القياس. لا يُعرض شيء الآن.</translation>
     </message>
     <message>
         <source>Preview</source>

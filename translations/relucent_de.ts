@@ -4030,6 +4030,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>Bestätigen Sie, dass der Raum geräumt ist: Die Muster blitzen.</translation>
     </message>
+    <message>
+        <source>%1: all patterns are taken again, from the first.</source>
+        <translation>%1: Alle Muster werden noch einmal aufgenommen, vom ersten an.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -7381,8 +7385,8 @@ Projektor %2</translation>
         <translation>Vorhersage</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. Nothing is projected yet.</source>
-        <translation>Aus der Messung vorhergesagt. Noch wird nichts projiziert.</translation>
+        <source>Predicted from the measurement. Nothing is projected now.</source>
+        <translation>Aus der Messung vorhergesagt. Projiziert wird gerade nichts.</translation>
     </message>
     <message>
         <source>Preview</source>

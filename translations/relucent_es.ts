@@ -4030,6 +4030,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>Confirme que la sala está despejada: los patrones destellan.</translation>
     </message>
+    <message>
+        <source>%1: all patterns are taken again, from the first.</source>
+        <translation>%1: se vuelven a tomar todos los patrones, desde el primero.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -7381,8 +7385,8 @@ proyector %2</translation>
         <translation>Calculando la previsión</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. Nothing is projected yet.</source>
-        <translation>Previsto a partir de la medición. Aún no se proyecta nada.</translation>
+        <source>Predicted from the measurement. Nothing is projected now.</source>
+        <translation>Previsto a partir de la medición. Ahora no se proyecta nada.</translation>
     </message>
     <message>
         <source>Preview</source>

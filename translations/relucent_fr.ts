@@ -4030,6 +4030,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>Confirmez que la salle est évacuée : les motifs clignotent.</translation>
     </message>
+    <message>
+        <source>%1: all patterns are taken again, from the first.</source>
+        <translation>%1 : tous les motifs sont repris, depuis le premier.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -7381,8 +7385,8 @@ projecteur %2</translation>
         <translation>Prévision</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. Nothing is projected yet.</source>
-        <translation>Prévu d’après la mesure. Rien n’est encore projeté.</translation>
+        <source>Predicted from the measurement. Nothing is projected now.</source>
+        <translation>Prévu d’après la mesure. Rien n’est projeté en ce moment.</translation>
     </message>
     <message>
         <source>Preview</source>

@@ -4030,6 +4030,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>Confermare che la sala è sgombra: i pattern lampeggiano.</translation>
     </message>
+    <message>
+        <source>%1: all patterns are taken again, from the first.</source>
+        <translation>%1: tutti i pattern vengono ripresi, dal primo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -7381,8 +7385,8 @@ proiettore %2</translation>
         <translation>Previsione</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. Nothing is projected yet.</source>
-        <translation>Previsto dalla misura. Nulla viene ancora proiettato.</translation>
+        <source>Predicted from the measurement. Nothing is projected now.</source>
+        <translation>Previsto dalla misura. Ora non viene proiettato nulla.</translation>
     </message>
     <message>
         <source>Preview</source>

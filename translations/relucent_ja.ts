@@ -4008,6 +4008,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>退避が完了したことを確認してください。パターンは点滅します。</translation>
     </message>
+    <message>
+        <source>%1: all patterns are taken again, from the first.</source>
+        <translation>%1: すべてのパターンを最初から撮り直しています。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -7343,8 +7347,8 @@ projector %2</source>
         <translation>予測中</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. Nothing is projected yet.</source>
-        <translation>測定からの予測です。まだ何も投影していません。</translation>
+        <source>Predicted from the measurement. Nothing is projected now.</source>
+        <translation>測定からの予測です。現在は何も投影していません。</translation>
     </message>
     <message>
         <source>Preview</source>

@@ -4008,6 +4008,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>请确认已清场：图案会闪烁。</translation>
     </message>
+    <message>
+        <source>%1: all patterns are taken again, from the first.</source>
+        <translation>%1：所有图案从第一个开始重新拍摄。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -7343,8 +7347,8 @@ projector %2</source>
         <translation>正在预测</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. Nothing is projected yet.</source>
-        <translation>根据测量预测。尚未投影。</translation>
+        <source>Predicted from the measurement. Nothing is projected now.</source>
+        <translation>根据测量预测。当前没有投影。</translation>
     </message>
     <message>
         <source>Preview</source>

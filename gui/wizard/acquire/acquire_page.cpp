@@ -66,6 +66,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     // Whoever has asked to stop does not wait for a camera that has gone.
     if (isStopping()) session_.giveUpCamera();
     tellSettings();
+    tellProgress();  // it waits, or does so no longer
   });
   connect(&job_, &Job::progressed, this, [this] {
     isFinestDone_ = isFinestDone_ || isWorkingOut();
@@ -167,7 +168,9 @@ QString AcquirePage::hint() const {
   if (const auto why = trace_.takesAgainFor(); isMeasuring() && why) {
     QString reason = AcquisitionTrace::reasonOf(*why);
     reason[0] = reason[0].toUpper();
-    return tr("%1: what was photographed since the check before is taken again.").arg(reason);
+    return trace_.takesAllAgain()
+               ? tr("%1: all patterns are taken again, from the first.").arg(reason)
+               : tr("%1: what was photographed since the check before is taken again.").arg(reason);
   }
   if (isMeasuring())
     return status().hasResult

@@ -47,6 +47,8 @@ std::vector<charts::Curve> curvesOf(const AcquisitionTrace& trace, double low) {
   charts::Curve below{{}, "amber"};
   for (const AcquisitionTrace::Point& point : trace.points()) {
     const sentinels::Reading& reading = point.reading;
+    // Behind a lid it is dark whatever the room is like.
+    if (reading.alarm == sentinels::AlarmKind::coveredLens) continue;
     double x = point.seconds / minute;
     light.line.push_back({x, percent * reading.roomLight});
     above.line.push_back({x, percent * highest(reading)});

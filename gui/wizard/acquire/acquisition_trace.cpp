@@ -168,6 +168,10 @@ void AcquisitionTrace::checked(const sentinels::Reading& reading) {
 
 void AcquisitionTrace::takenAgain(const sentinels::Retake& retake) {
   Clock::time_point now = Clock::now();
+  if (retake.shot == 0) {
+    QMutexLocker lock(&guard_);
+    growth_ = {};
+  }
   QMetaObject::invokeMethod(
       this,
       [this, retake, now] {
@@ -228,20 +232,24 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
   bool lamp = !isOf(now, {sentinels::AlarmKind::lampChanged, sentinels::AlarmKind::projectorAsleep});
   bool even = now.flicker < sentinels::reading_limit::flicker &&
               !isOf(now, {sentinels::AlarmKind::flicker, sentinels::AlarmKind::unsteady});
+  const bool isBlind = isOf(now, {sentinels::AlarmKind::coveredLens});
+  const QString next = tr("Looked at again at the next check.");
+  const QString unknown = isOver ? next : tr("Not known while the camera sees nothing.");
   std::array<WatchState, 4> states{
-      {isOf(now, {sentinels::AlarmKind::coveredLens})
-           ? WatchState{false, true, tr("Room light"), tr("Not known while the camera sees nothing.")}
-           : WatchState{true, room, room ? tr("Room light steady") : tr("Room light changed"),
-                        tr("%1 of full light, changed by %2 since the start.")
-                            .arg(fineShare(now.roomLight),
-                                 fineShare(std::abs(now.roomLight - now.roomLightAtFirst)))},
-       {true, view, view ? tr("Camera still") : tr("The view changed"),
-        tr("The view differs by %1 from the first.").arg(fineShare(now.view))},
+      {isBlind ? WatchState{false, true, tr("Room light"), unknown}
+               : WatchState{true, room, room ? tr("Room light steady") : tr("Room light changed"),
+                            tr("%1 of full light, changed by %2 since the start.")
+                                .arg(fineShare(now.roomLight),
+                                     fineShare(std::abs(now.roomLight - now.roomLightAtFirst)))},
+       isBlind ? WatchState{true, false, headingOf(sentinels::AlarmKind::coveredLens), {}}
+               : WatchState{true, view, view ? tr("Camera still") : tr("The view changed"),
+                            tr("The view differs by %1 from the first.").arg(fineShare(now.view))},
+       isBlind ? WatchState{false, true, tr("Projector"), unknown}
        // What is seen of another view says nothing of the lamp.
-       view ? WatchState{true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
-                         tr("Its light drifted by %1 and is corrected.")
-                             .arg(fineShare(std::abs(now.lamp - 1.0)))}
-            : WatchState{false, true, tr("Projector"), tr("Not known while the view has changed.")},
+       : view ? WatchState{true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
+                           tr("Its light drifted by %1 and is corrected.")
+                               .arg(fineShare(std::abs(now.lamp - 1.0)))}
+              : WatchState{false, true, tr("Projector"), tr("Not known while the view has changed.")},
        {true, even, even ? tr("No flicker") : tr("The light flickers, or something moves"),
         // One exposure alone has nothing to differ from.
         now.flicker > 0.0 ? tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))
@@ -252,8 +260,7 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
     if (!states[i].isSteady && isFoundSince()) states[i].figure = tr("Found since the last check.");
     const bool isPutRight = isPutRight_ && i != roomLight;
     if (!states[i].isSteady && (isOver || (now.alarm && isPutRight)))
-      states[i] = {false, true, isPutRight ? tr("Put right") : tr("Photographed again"),
-                   tr("Looked at again at the next check.")};
+      states[i] = {false, true, isPutRight ? tr("Put right") : tr("Photographed again"), next};
   }
   return states;
 }
@@ -261,6 +268,11 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
 std::optional<sentinels::AlarmKind> AcquisitionTrace::takesAgainFor() const {
   const Mark* mark = isRecalled_ ? nullptr : lastAnswer();
   return mark != nullptr ? mark->retake.alarm : std::nullopt;
+}
+
+bool AcquisitionTrace::takesAllAgain() const {
+  const Mark* mark = isRecalled_ ? nullptr : lastAnswer();
+  return mark != nullptr && mark->retake.shot == 0;
 }
 
 /// What was found was taken again since the last check; null: it was not.

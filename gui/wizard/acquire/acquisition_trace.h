@@ -76,6 +76,8 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   std::optional<RoomLight> roomLight() const;
   /// Why patterns are being photographed again: what the last check found, until the next one.
   std::optional<sentinels::AlarmKind> takesAgainFor() const;
+  /// From the first pattern on, as what it is compared with may be wrong.
+  bool takesAllAgain() const;
   /// The last ones, newest first.
   std::vector<TakenAgain> takenAgain(std::size_t most) const;
 

@@ -63,6 +63,10 @@ class OutputPage : public DevicePage {
   QString missingScreen() const;
   /// A step's light stands on the projectors' screens before what plays.
   bool isCovered() const;
+  /// How what plays is doing, where it is live; none: it is not.
+  std::optional<LiveState> livePlaying() const;
+  /// How what is projected goes, in a line; empty: nothing of it is seen.
+  QString figures() const;
   /// What stands on the projectors while the output is closed, a sentence.
   QString whatIsProjected() const;
   /// What it means for what is measured that the projector is another screen now; empty: nothing.

@@ -2,10 +2,40 @@
 // What Output plays: the playlist, the set in use, and the output that shows them.
 #include <algorithm>
 
+#include "content/content_address.h"
+#include "views/number_text.h"
 #include "wizard/output/output_page.h"
 #include "wizard/session/method_name.h"
 
 namespace relucent::gui {
+
+std::optional<LiveState> OutputPage::livePlaying() const {
+  const qsizetype now = projection_.playing();
+  const QList<PlaylistItem>& items = playlist_.settings().items;
+  const std::vector<LiveState> live = projection_.live();
+  if (now < 0 || now >= items.size() || live.empty()) return std::nullopt;
+  // The next item of the list may be live, too.
+  if (addressOf(items[now].path).kind == ContentAddress::Kind::file) return std::nullopt;
+  return live.front();
+}
+
+QString OutputPage::figures() const {
+  const PlayerStatistics s = projection_.statistics();
+  if (!isOpen() || !missingScreen().isEmpty() || isCovered() || s.frames == 0) return {};
+  if (isContested()) return tr("Perhaps under another program's picture");
+  if (playsEarlier()) return tr("Another correction");
+  if (isBlack()) return tr("Black");
+  if (showsChart()) return tr("Test chart");
+  if (s.perfected) return tr("still picture, perfected by photographs");
+  if (const std::optional<LiveState> live = livePlaying(); live && live->phase != LiveState::Phase::playing)
+    return live->size.isEmpty() ? tr("No picture has come yet: black")
+           : live->turnsBlack   ? tr("The live picture is lost: black")
+                                : tr("The live picture is lost: its last one stands");
+  const QString clipped = percentText(s.clipped);
+  if (!(s.framesPerSecond > 0.0)) return tr("still picture, %1 of the pixels at their limit").arg(clipped);
+  return tr("%1 fps, %2 ms, %3 of the pixels at their limit")
+      .arg(decimalText(s.framesPerSecond, 1), decimalText(1000.0 * s.frameSeconds, 1), clipped);
+}
 
 void OutputPage::setPlaylist(const PlaylistSettings& settings) {
   try {
@@ -51,7 +81,8 @@ void OutputPage::setFade(double seconds) {
 
 void OutputPage::setPictureSeconds(qsizetype index, double seconds) {
   PlaylistSettings after = playlist_.settings();
-  if (index < 0 || index >= after.items.size() || !OutputPlaylist::standsForSeconds(after.items[index])) return;
+  if (index < 0 || index >= after.items.size() || !OutputPlaylist::standsForSeconds(after.items[index]))
+    return;
   after.items[index].seconds = seconds;
   edit(tr("Time of a picture"), after);
 }

@@ -12,7 +12,6 @@
 #include <QShortcut>
 #include <cmath>
 
-#include "content/content_address.h"
 #include "output/held_key.h"
 #include "theme/action_button.h"
 #include "theme/controls.h"
@@ -37,23 +36,6 @@ constexpr double legendRoom = 2.0;  // of the highest curve: the limit's words s
 /// The cards say so too.
 QString whyNoShow(const OutputPage& page) {
   return page.isOpen() ? QString() : page.whatIsProjected();
-}
-
-/// What plays, where it is live; the next item of the list may be, too.
-std::optional<LiveState> livePlaying(const OutputPage& page) {
-  const qsizetype now = page.projection().playing();
-  const QList<PlaylistItem>& items = page.playlist().settings().items;
-  const std::vector<LiveState> live = page.projection().live();
-  if (now < 0 || now >= items.size() || live.empty()) return std::nullopt;
-  if (addressOf(items[now].path).kind == ContentAddress::Kind::file) return std::nullopt;
-  return live.front();
-}
-
-/// Of what is live and gives no picture now.
-QString missingText(const LiveState& live) {
-  if (live.size.isEmpty()) return OutputPage::tr("No picture has come yet: black");
-  return live.turnsBlack ? OutputPage::tr("The live picture is lost: black")
-                         : OutputPage::tr("The live picture is lost: its last one stands");
 }
 
 /// Three figures, and the time of every frame in the last minute.
@@ -106,9 +88,9 @@ class PlaybackCard : public Card {
     const bool isLive = open && s.liveSeconds > 0.0;
     live_->setVisible(isLive);
     if (isLive) live_->setValue(OutputPage::tr("%1 ms").arg(decimalText(1000.0 * s.liveSeconds, 0)));
-    setSubtitle(!open                         ? OutputPage::tr("closed")
-                : moves || livePlaying(page_) ? OutputPage::tr("on %1").arg(engineText())
-                                              : OutputPage::tr("still picture, on %1").arg(engineText()));
+    setSubtitle(!open                          ? OutputPage::tr("closed")
+                : moves || page_.livePlaying() ? OutputPage::tr("on %1").arg(engineText())
+                                               : OutputPage::tr("still picture, on %1").arg(engineText()));
     charts::Curve curve{{}, "accent"};
     const std::deque<double>& times = page_.projection().frameTimes();
     double highest = 20.0;
@@ -312,7 +294,7 @@ class OutputStage : public QWidget {
     setPossible(compare_, whyNoShow(page_));
     compare_->setCurrent(page_.isCompensated() ? 0 : 1);
     output_->reflect();
-    output_->setCaption(figures());
+    output_->setCaption(page_.figures());
     const std::shared_ptr<const Proof>& proof = page_.proof().proof();
     if (proof != shown_ || camera_ != page_.camera()) {
       shown_ = proof;
@@ -329,24 +311,6 @@ class OutputStage : public QWidget {
     // Of what is out of date nobody has to read which picture it was: there is no room for both.
     if (shown_->picture.isEmpty() || page_.proof().isOutOfDate()) return taken;
     return QString("%1, %2").arg(taken, isolated(OutputPlaylist::nameOf(shown_->picture)));
-  }
-  /// Over the projector's picture: how it goes.
-  QString figures() const {
-    PlayerStatistics s = page_.projection().statistics();
-    if (!page_.isOpen() || !page_.missingScreen().isEmpty() || page_.isCovered() || s.frames == 0) return {};
-    if (page_.isContested()) return OutputPage::tr("Perhaps under another program's picture");
-    if (page_.playsEarlier()) return OutputPage::tr("Another correction");
-    if (page_.isBlack()) return OutputPage::tr("Black");
-    if (page_.showsChart()) return OutputPage::tr("Test chart");
-    if (s.perfected) return OutputPage::tr("still picture, perfected by photographs");
-    if (const std::optional<LiveState> live = livePlaying(page_);
-        live && live->phase != LiveState::Phase::playing)
-      return missingText(*live);
-    QString clipped = percentText(s.clipped);
-    if (!(s.framesPerSecond > 0.0))
-      return OutputPage::tr("still picture, %1 of the pixels at their limit").arg(clipped);
-    return OutputPage::tr("%1 fps, %2 ms, %3 of the pixels at their limit")
-        .arg(decimalText(s.framesPerSecond, 1), decimalText(1000.0 * s.frameSeconds, 1), clipped);
   }
   void showProof() {
     if (!shown_) {

@@ -375,7 +375,7 @@ QString PreviewPage::hint() const {
   if (isComputing()) return tr("Predicting");
   if (!preview_) return {};
   if (session_.underWay().show) return tr("Predicted from the measurement. The output stays as it is.");
-  return tr("Predicted from the measurement. Nothing is projected yet.");
+  return tr("Predicted from the measurement. Nothing is projected now.");
 }
 
 void PreviewPage::updateCommands() {

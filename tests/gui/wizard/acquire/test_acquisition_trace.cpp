@@ -145,6 +145,10 @@ class TestAcquisitionTrace : public QObject {
       QCOMPARE(states[static_cast<std::size_t>(i)].isSteady, i != state);
     }
     QCOMPARE(trace.roomLight().has_value(), kind != AlarmKind::coveredLens);
+    // Of a view that is not seen nothing is measured.
+    if (kind == AlarmKind::coveredLens)
+      for (std::size_t i = 0; i < 3; ++i)
+        QVERIFY2(!states[i].figure.contains('%'), qPrintable(states[i].figure));
     QVERIFY2(kind == AlarmKind::coveredLens || (states[0].figure.contains(decimalText(0.65, 2)) &&
                                                 states[0].figure.contains(decimalText(0.35, 2))),
              qPrintable(states[0].figure));
@@ -159,6 +163,7 @@ class TestAcquisitionTrace : public QObject {
       const bool isHidden = kind == AlarmKind::coveredLens && i == 0;
       QCOMPARE(states[static_cast<std::size_t>(i)].isKnown,
                !isHidden && i != state && (state != 1 || i != 2));
+      QVERIFY(!states[static_cast<std::size_t>(i)].figure.contains("sees nothing"));
     }
     // Tried again, it is well.
     trace.checked(readingAt(40));
@@ -205,11 +210,15 @@ class TestAcquisitionTrace : public QObject {
     trace.takenAgain({20, 21, RetakeReason::alarm, AlarmKind::moved});
     QCoreApplication::processEvents();
     QCOMPARE(trace.points().size(), std::size_t{1});
+    QVERIFY(!trace.takesAllAgain());
+    trace.grew({32, 11}, 7);
     trace.takenAgain({0, 41, RetakeReason::alarm, AlarmKind::ambientChanged});
     QCoreApplication::processEvents();
     QVERIFY(trace.points().empty() && !trace.roomLight() && !trace.states()[0].isKnown);
     QCOMPARE(trace.marks().size(), std::size_t{2});
     QCOMPARE(trace.takesAgainFor(), AlarmKind::ambientChanged);
+    // Nor is any level through.
+    QVERIFY(trace.takesAllAgain() && trace.growth().levels.empty());
   }
 
   void flickerBeyondItsLimitIsAState() {

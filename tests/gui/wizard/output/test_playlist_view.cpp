@@ -91,12 +91,24 @@ class TestPlaylistView : public QObject {
     QCOMPARE(time()->value(), usual);
   }
 
-  void onlyPicturesStand() {
-    play({picture("first.png"), folder_.filePath("film.mp4")});
+  void filmsPlayToTheirEnd_data() {
+    QTest::addColumn<QString>("item");
+    QTest::addColumn<bool>("stands");
+    QTest::newRow("picture") << picture("second.png") << true;
+    QTest::newRow("film") << folder_.filePath("film.mp4") << false;
+    QTest::newRow("folder of pictures") << ownFolder("frames") << false;
+    QTest::newRow("stream") << "stream:http://127.0.0.1:9/live" << true;
+    QTest::newRow("screen") << "screen:DUMMY1" << true;
+  }
+  void filmsPlayToTheirEnd() {
+    QFETCH(QString, item);
+    QFETCH(bool, stands);
+    play({picture("first.png"), item});
     list()->setCurrentRow(1);
-    QVERIFY(!time()->isEnabled());
+    QCOMPARE(time()->isEnabled(), stands);
+    if (stands) QCOMPARE(time()->value(), PlaylistItem().seconds);
     page_->setPictureSeconds(1, 5.0);
-    QCOMPARE(seconds(1), PlaylistItem().seconds);
+    QCOMPARE(seconds(1), stands ? 5.0 : PlaylistItem().seconds);
     list()->setCurrentRow(0);
     QVERIFY(time()->isEnabled());
   }

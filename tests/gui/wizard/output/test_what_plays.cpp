@@ -99,6 +99,18 @@ class TestWhatPlays : public QObject {
     session().close();
   }
 
+  void aStreamWithoutAPictureIsNoStill() {
+    page_->addFiles({QString("stream:udp://127.0.0.1:%1").arg(test::freeUdpPort())});
+    page_->removeItem(0);
+    openOutput();
+    QTRY_COMPARE(page_->figures(), OutputPage::tr("No picture has come yet: black"));
+    QVERIFY(page_->livePlaying());
+    page_->addFiles({defaultPicture()});
+    page_->removeItem(0);
+    QTRY_VERIFY2(page_->figures().startsWith("still picture"), qPrintable(page_->figures()));
+    QVERIFY(!page_->livePlaying());
+  }
+
   /// An installed show, begun beside the wizard: its pictures are on the projector whatever is said here.
   void aShowOfAnotherProgramIsTold() {
     const auto isTold = [this] {
@@ -607,6 +619,7 @@ class TestWhatPlays : public QObject {
     sender.stop();
     QTRY_VERIFY(told->isVisible() && told->text().contains(sender.url()));
     QVERIFY2(!told->text().contains("secret"), qPrintable(told->text()));
+    QCOMPARE(page_->figures(), OutputPage::tr("The live picture is lost: its last one stands"));
     QVERIFY(sender.start());
     QTRY_VERIFY_WITH_TIMEOUT(!told->isVisible(), 10'000);
     page_->close();

@@ -7375,8 +7375,8 @@ projector %2</source>
         <translation>غير محسَّنة منذ التغيير</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>حُسِّنت لقياس سابق أو لموضع آخر. ذلك محفوظ، لكنه لا يفيد الآن: حسِّنها مرة أخرى.</translation>
+        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>حُسِّنت لقياس سابق أو لمجموعة أخرى أو لموضع آخر. ذلك محفوظ، لكنه لا يفيد الآن: حسِّنها مرة أخرى.</translation>
     </message>
 </context>
 <context>

@@ -7223,8 +7223,8 @@ Projektor %2</translation>
         <translation>Seit der Änderung nicht perfektioniert</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Es wurde für eine frühere Messung oder anders platziert perfektioniert. Das ist aufgehoben, nützt jetzt aber nichts: Perfektionieren Sie es noch einmal.</translation>
+        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Es wurde für eine frühere Messung, für eine andere Variante oder anders platziert perfektioniert. Das ist aufgehoben, nützt jetzt aber nichts: Perfektionieren Sie es noch einmal.</translation>
     </message>
 </context>
 <context>

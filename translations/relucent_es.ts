@@ -7223,8 +7223,8 @@ proyector %2</translation>
         <translation>Sin perfeccionar desde el cambio</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Se perfeccionó para una medición anterior, o colocada de otro modo. Eso se conserva, pero ahora no sirve: perfecciónela otra vez.</translation>
+        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Se perfeccionó para una medición anterior, para otra variante, o colocada de otro modo. Eso se conserva, pero ahora no sirve: perfecciónela otra vez.</translation>
     </message>
 </context>
 <context>

@@ -7223,8 +7223,8 @@ projecteur %2</translation>
         <translation>Pas perfectionnée depuis le changement</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Elle a été perfectionnée pour une mesure antérieure, ou placée autrement. Cela est conservé, mais ne sert plus&#xa0;: perfectionnez-la encore une fois.</translation>
+        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Elle a été perfectionnée pour une mesure antérieure, pour une autre variante, ou placée autrement. Cela est conservé, mais ne sert plus&#xa0;: perfectionnez-la encore une fois.</translation>
     </message>
 </context>
 <context>

@@ -7223,8 +7223,8 @@ proiettore %2</translation>
         <translation>Non perfezionata dopo il cambiamento</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>È stata perfezionata per una misura precedente, o posizionata in altro modo. Resta conservato, ma ora non serve: va perfezionata ancora una volta.</translation>
+        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>È stata perfezionata per una misura precedente, per un’altra variante, o posizionata in altro modo. Resta conservato, ma ora non serve: va perfezionata ancora una volta.</translation>
     </message>
 </context>
 <context>

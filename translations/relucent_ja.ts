@@ -7185,8 +7185,8 @@ projector %2</source>
         <translation>変更後は未仕上げ</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>以前の測定用、または別の配置で仕上げられています。それは保存されていますが、今は使えません。もう一度仕上げてください。</translation>
+        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>以前の測定用、別のセット用、または別の配置で仕上げられています。それは保存されていますが、今は使えません。もう一度仕上げてください。</translation>
     </message>
 </context>
 <context>

@@ -7185,8 +7185,8 @@ projector %2</source>
         <translation>更改后尚未完善</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>它是为先前的测量或另一种放置完善的。那些结果仍保留，但现在不适用：请再完善一次。</translation>
+        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>它是为先前的测量、另一个方案或另一种放置完善的。那些结果仍保留，但现在不适用：请再完善一次。</translation>
     </message>
 </context>
 <context>

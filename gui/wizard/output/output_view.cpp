@@ -86,7 +86,10 @@ class PlaybackCard : public Card {
     // A picture that stands is not late for anything.
     late_->setValue(open && moves ? countText(s.late) : none, moves && s.late > 0);
     const bool isLive = open && s.liveSeconds > 0.0;
+    // In place of the frame time, which the chart tells: there is no room for four, and cards that fold as a
+    // list changes between pictures and streams jump.
     live_->setVisible(isLive);
+    time_->setVisible(!isLive);
     if (isLive) live_->setValue(OutputPage::tr("%1 ms").arg(decimalText(1000.0 * s.liveSeconds, 0)));
     setSubtitle(!open                          ? OutputPage::tr("closed")
                 : moves || page_.livePlaying() ? OutputPage::tr("on %1").arg(engineText())

@@ -187,6 +187,13 @@ QWidget* playlistPart(OutputPage& page) {
   column->setContentsMargins(0, 0, 0, 0);
   auto* list = new PlaylistView(page);
   column->addWidget(list);
+  // Beside what it is said of: further down it would not be seen.
+  QLabel* skipped = labelOf({}, "amber");
+  skipped->setObjectName("skipped");
+  column->addWidget(skipped);
+  QLabel* trouble = labelOf({}, "amber");
+  trouble->setObjectName("streams");
+  column->addWidget(trouble);
 
   auto* row = new QHBoxLayout;
   row->setSpacing(space::tight);
@@ -229,12 +236,6 @@ QWidget* playlistPart(OutputPage& page) {
   fade->setRange(0, 50);
   column->addWidget(fadeRow);
   column->addWidget(fade);
-  QLabel* skipped = labelOf({}, "amber");
-  skipped->setObjectName("skipped");
-  column->addWidget(skipped);
-  QLabel* trouble = labelOf({}, "amber");
-  trouble->setObjectName("streams");
-  column->addWidget(trouble);
 
   QObject::connect(add, &QPushButton::clicked, &page, [&page, part] {
     page.addFiles(askForFiles(part, OutputPage::tr("Add pictures or films"), ContentFiles::picturesAndFilms));

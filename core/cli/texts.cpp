@@ -140,12 +140,19 @@ std::string textOf(const pipeline::ProveResult& result) {
                 "The camera's view is shifted by {:.1f}, {:.1f} pixels and turned by {:.1f} degrees.\n",
                 result.moved.x, result.moved.y, result.moved.degrees)
           : "";
+  const auto patch = [](const pipeline::ProvedView& view) {
+    return pipeline::changedPatch(view) > pipeline::plainPatch
+               ? fmt::format(
+                     "A part of the surface looks otherwise than predicted, by a colour error of {:.1f}.\n",
+                     pipeline::changedPatch(view))
+               : "";
+  };
   std::string others;
   for (std::size_t other = 0; other < result.others.size(); ++other)
     others += fmt::format("Camera {}\n", other + 2) + line("Before:", result.others[other].before) +
-              line("After:", result.others[other].after);
+              line("After:", result.others[other].after) + patch(result.others[other]);
   return (others.empty() ? "" : "Camera 1\n") + line("Before:", result.before) +
-         line("After:", result.after) + moved + others +
+         line("After:", result.after) + moved + patch(viewOf(result, 0)) + others +
          fmt::format(
              "dB where it can be reached, which is {:.1f} % of the picture; colour error (CIEDE2000) over "
              "all of it; {} photographs in {:.0f} s.\n",

@@ -255,7 +255,8 @@ calibration::Json toJson(const ProveResult& result) {
                              {"psnr_measured", proved.measured.psnr},
                              {"delta_e_predicted", proved.predicted.deltaE},
                              {"delta_e_measured", proved.measured.deltaE},
-                             {"surprise", proved.surprise}};
+                             {"surprise", proved.surprise},
+                             {"worst_patch", proved.worstPatch}};
   };
   auto movement = [](const sentinels::Movement& moved) {
     return calibration::Json{

@@ -85,6 +85,12 @@ fs::path standardPicture(const fs::path& folder) {
 }
 
 Message notAsPredicted(const ProveResult& proof) {
+  if (const double patch = changedPatch(viewOf(proof, *viewThatDiffers(proof))); patch > plainPatch)
+    return RELUCENT_MESSAGE(
+               "night.part-not-as-predicted",
+               "a part of the surface looks otherwise than predicted, by a colour error of {}, and no "
+               "repair helped")
+        .with(as::number(patch, as::decimals(1)));
   return RELUCENT_MESSAGE("night.not-as-predicted",
                           "the picture has a colour error of {} where {} was predicted, and no repair helped")
       .with(as::number(proof.after.measured.deltaE, as::decimals(1)),

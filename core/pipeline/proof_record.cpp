@@ -21,11 +21,13 @@ constexpr const char* fileName = "proof.json";
 calibration::Json toJson(const ProvedProjection& projection) {
   return {{"predicted", projection.predicted},
           {"measured", projection.measured},
-          {"surprise", projection.surprise}};
+          {"surprise", projection.surprise},
+          {"worst_patch", projection.worstPatch}};
 }
 ProvedProjection projectionFrom(const calibration::Json& json) {
   return {json.at("predicted").get<PictureError>(), json.at("measured").get<PictureError>(),
-          json.at("surprise").get<double>()};
+          json.at("surprise").get<double>(),
+          json.value("worst_patch", 0.0)};  // records of earlier versions have none
 }
 
 calibration::Json toJson(const sentinels::Movement& moved) {

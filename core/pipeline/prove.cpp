@@ -29,8 +29,9 @@ namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double brightestDeltaE = 20.0;  // of the maps: twice what nobody overlooks
-constexpr int gap = 4;                    // pixels between the pictures of the comparison
+constexpr double brightestDeltaE = 20.0;           // of the maps: twice what nobody overlooks
+constexpr int patchesAcross = 24, leastPatch = 4;  // of what is compared patch by patch; pixels
+constexpr int gap = 4;                             // pixels between the pictures of the comparison
 
 /// By one camera.
 struct PhotographedView {
@@ -61,6 +62,44 @@ double surpriseOf(const CameraStack& measured, const CameraStack& predicted,
     light += value * value;
   }
   return light > 0.0 ? std::sqrt(apart / light) : 0.0;
+}
+
+/// See ProvedProjection.
+double worstPatchOf(const CameraStack& measured, const CameraStack& predicted,
+                    const compensation::Target& target, const Rasters& cameras, std::size_t camera) {
+  const Size size = cameras.size(camera);
+  const int side = std::max(leastPatch, size.width / patchesAcross);
+  const Size patches{std::max(1, size.width / side), std::max(1, size.height / side)};
+  const image::Image seen = underEvenWhite(measured, target, cameras, camera),
+                     expected = underEvenWhite(predicted, target, cameras, camera);
+  image::Image seenPatches(patches, 3), expectedPatches(patches, 3);
+  std::vector<std::uint8_t> isSeen(patches.count(), 0);
+  for (std::size_t patch = 0; patch < patches.count(); ++patch) {
+    const Pixel place = pixelAt(patches, patch);
+    int pixels = 0;
+    std::array<double, 3> light{}, wanted{};
+    for (int y = place.y * side; y < (place.y + 1) * side; ++y)
+      for (int x = place.x * side; x < (place.x + 1) * side; ++x) {
+        if (!target.inside[cameras.offset(camera) + indexOf(size, {x, y})]) continue;
+        ++pixels;
+        for (int c = 0; c < 3; ++c) {
+          light[static_cast<std::size_t>(c)] += static_cast<double>(seen.at(x, y, c));
+          wanted[static_cast<std::size_t>(c)] += static_cast<double>(expected.at(x, y, c));
+        }
+      }
+    isSeen[patch] = 2 * pixels >= side * side;
+    for (int c = 0; c < 3 && pixels > 0; ++c) {
+      seenPatches.at(place.x, place.y, c) = static_cast<float>(light[static_cast<std::size_t>(c)] / pixels);
+      expectedPatches.at(place.x, place.y, c) =
+          static_cast<float>(wanted[static_cast<std::size_t>(c)] / pixels);
+    }
+  }
+  const image::Image apart = image::deltaEMap(image::viewed(seenPatches, target.white),
+                                              image::viewed(expectedPatches, target.white), isSeen);
+  double worst = 0.0;
+  for (float value : apart.data())
+    if (!std::isnan(value)) worst = std::max(worst, static_cast<double>(value));
+  return worst;
 }
 
 /// A pixel that saturates every exposure is no measurement: it counts in neither figure.
@@ -140,6 +179,7 @@ Photographed photograph(photography::Photographer& photographer, const MeasuredC
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     PhotographedView& view = result.views.emplace_back();
     view.error.surprise = surpriseOf(frame.radiance, predicted.camera, target, cameras, camera);
+    view.error.worstPatch = worstPatchOf(frame.radiance, predicted.camera, target, cameras, camera);
     view.error.predicted = errorOf(compensation::errorIn(camera, predicted.camera, target, cameras));
     view.moved = aimOffset(image::imageFromStack(predicted.camera, cameras, camera),
                            image::imageFromStack(frame.radiance, cameras, camera),
@@ -324,7 +364,12 @@ ProvedView viewOf(const ProveResult& result, std::size_t camera) {
   return {result.before, result.after, result.reachable, result.moved};
 }
 
+double changedPatch(const ProvedView& view) {
+  return std::min(view.before.worstPatch, view.after.worstPatch);
+}
+
 bool isAsPredicted(const ProvedView& view) {
+  if (changedPatch(view) > plainPatch) return false;
   const double seen = view.after.measured.deltaE;
   const bool hasMoved = view.moved.explains && std::hypot(view.moved.x, view.moved.y) > plainShift;
   return seen <= 1.0 || (!hasMoved && seen <= 2.0 * view.after.predicted.deltaE);

@@ -19,11 +19,13 @@ std::string doesNotLookAsPredicted(const ReportVerification& shown, const std::s
   const std::size_t view = shown.viewThatDiffers.value_or(0);
   if (view == 0)
     return fmt::format(
-        "{}: the surface does not look as predicted (ΔE {:.1f}). The camera or the projector may have moved.",
+        "{}: the surface does not look as predicted (ΔE {:.1f}). The camera or the projector may have moved, "
+        "or "
+        "something on the surface has changed.",
         when, shown.deltaEAfter);
   return fmt::format(
       "{}: for camera {} the surface does not look as predicted (ΔE {:.1f}). That camera or a projector may "
-      "have moved.",
+      "have moved, or something on the surface has changed.",
       when, view + 1, shown.others.at(view - 1).deltaEAfter);
 }
 

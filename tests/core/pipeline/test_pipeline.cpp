@@ -212,6 +212,30 @@ class TestPipeline : public QObject {
     QVERIFY(brighter.after.surprise > 2.0 * result.after.surprise);
     QVERIFY(brighter.after.measured.deltaE > result.after.measured.deltaE);
   }
+  /// Law: what is far off in one place is nothing in the mean of all, and not as predicted all the same.
+  void aPatchThatHasChangedIsNotAsPredicted_data() {
+    QTest::addColumn<double>("radius");
+    QTest::newRow("as it was measured") << 0.0;
+    QTest::newRow("painted") << 0.15;
+  }
+  void aPatchThatHasChangedIsNotAsPredicted() {
+    QFETCH(double, radius);
+    VenueSettings venue = std::get<VenueSettings>(smallVenue("plain").rig);
+    if (radius > 0.0) venue.changes.painted.push_back({{0.5, 0.5}, radius});
+    ProveSettings settings;
+    settings.image = root() / "white.png";
+    Image white({64, 48}, 3);
+    std::ranges::fill(white.data(), 0.9f);
+    writePng(settings.image, white, 8);
+    settings.out = root() / "proved-patch";
+    settings.rig = venue;
+    Progress silent;
+    const ProveResult result = proveCalibration(root() / "plain", settings, cache(), silent);
+    const double patch = changedPatch(viewOf(result, 0));
+    QVERIFY2((patch > plainPatch) == (radius > 0.0), qPrintable(QString::number(patch)));
+    QVERIFY(radius == 0.0 || !isAsPredicted(result));
+  }
+
   void proveRefusesWhatCannotBe() {
     Progress silent;
     ProveSettings settings;

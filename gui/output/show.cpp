@@ -365,6 +365,7 @@ void Show::tend() {
   }
   log_.tell("tending the calibration by photographs");
   nights_->begin(now);
+  nightUse_ = VenueUse::take(settings_.calibration, VenueUse::Way::night);
   makeWay();
   pipeline::NightSettings work = nights_->work();
   work.set = playing_.opened;
@@ -382,6 +383,7 @@ void Show::leaveOutNight(const Message& why) {
 }
 
 void Show::nightEnded(const QString& verdict, const QString& sentence) {
+  nightUse_.reset();
   if (verdict != "failed") {
     nights_->ended(clock_.wall());
     if (!nights_->alarm().empty()) log_.warn("alarm: " + sentence);

@@ -140,6 +140,7 @@ class Show : public QObject, private RemoteActions {
   QString renderer_;
   HeldKey escape_{Qt::Key_Escape, endsAfter};
   std::optional<VenueUse> use_;
+  std::optional<VenueUse> nightUse_;  // while a night is under way
   std::vector<VenueUse> screens_;
   QTimer health_, again_, streamsLooked_;
   int failures_ = 0;

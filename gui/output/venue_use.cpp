@@ -23,9 +23,10 @@ QString noteOf(const fs::path& venue, VenueUse::Way way) {
   const QByteArray name =
       QCryptographicHash::hash(QByteArray::fromStdString(whole.string()), QCryptographicHash::Sha1);
   // Not by the program's names: every part of it, and tests of it, mean the same.
-  const char* const what = way == VenueUse::Way::wizard ? "wizard-"
-                           : way == VenueUse::Way::show ? "show-"
-                                                        : "screen-";
+  const char* const what = way == VenueUse::Way::wizard  ? "wizard-"
+                           : way == VenueUse::Way::show  ? "show-"
+                           : way == VenueUse::Way::night ? "night-"
+                                                         : "screen-";
   return QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/relucent/in-use/" + what +
          name.toHex();
 }

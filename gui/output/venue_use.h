@@ -17,6 +17,7 @@ class VenueUse {
   enum class Way {
     wizard,  // opened by one at a time: its pages show what they have read
     show,    // by `relucent show`, beside a wizard
+    night,   // looked after by it meanwhile
     screen   // one of its screens, by whichever venue's show: of ofScreen()
   };
   /// In place of a venue, a screen of this desktop.

@@ -25,6 +25,9 @@ class Perfecting : public QObject {
   /// disk, on another thread; changed() tells. While one is being perfected it is that one.
   void lookAt(const QString& picture, const Canvas& canvas);
 
+  /// The same once more: another program may have perfected it.
+  void lookAgain() { look(); }
+
   bool isRunning() const { return job_.isRunning(); }
   /// Why none can be started now, a short sentence; empty: devices and light transport are free.
   QString whyNot() const;

@@ -80,6 +80,11 @@ NightsChart chartOf(const std::vector<pipeline::NightRecord>& nights, NightFigur
     if (!night.alarm.empty() && !seen) without.push_back(day);
   }
   measured.points = measured.line;
+  // A line of one point is nothing to see.
+  if (predicted.line.size() == 1) {
+    predicted.points = predicted.line;
+    predicted.marker = charts::Marker::square;
+  }
   if (figure == NightFigure::colourError) {
     low = 0.0;
     high = std::max(1.1 * high, 1.0);

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 
 #include "jobs/failure.h"
+#include "output/venue_use.h"
 #include "relucent/base/error.h"
 #include "theme/action_button.h"
 #include "theme/theme.h"
@@ -45,7 +46,9 @@ NightsPart::NightsPart(OutputPage& page, QWidget* parent) : QWidget(parent), pag
   connect(&page_.session(), &Session::opened, this, &NightsPart::reload);
   // Nights pass in the installed show, another program, while this page is looked at.
   connect(&folder_, &QFileSystemWatcher::directoryChanged, this, [this] {
-    if (writtenNow() != written_) reload();
+    if (writtenNow() == written_) return;
+    reload();
+    page_.nightHasPassed();
   });
   // Which time it is at, and whether anything is installed.
   for (auto signal : {&OutputPage::settingsChanged, &OutputPage::resultChanged})
@@ -53,6 +56,9 @@ NightsPart::NightsPart(OutputPage& page, QWidget* parent) : QWidget(parent), pag
       if (nights_.empty() && !isUnreadable_) showLast();
     });
   connect(&Theme::instance(), &Theme::changed, this, &NightsPart::reload);
+  constexpr std::chrono::seconds between{2};
+  looking_.setInterval(between);
+  connect(&looking_, &QTimer::timeout, this, &NightsPart::lookWhetherOneRuns);
   showTime();
   reload();
 }
@@ -70,7 +76,20 @@ void NightsPart::showTime() {
 
 void NightsPart::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
+  looking_.start();
+  lookWhetherOneRuns();
   reload();
+}
+
+void NightsPart::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  looking_.stop();
+}
+
+void NightsPart::lookWhetherOneRuns() {
+  const bool isUnderWay =
+      page_.session().isOpen() && VenueUse::isTaken(page_.session().path(), VenueUse::Way::night);
+  if (std::exchange(isUnderWay_, isUnderWay) != isUnderWay && !isUnreadable_) showLast();
 }
 
 QDateTime NightsPart::writtenNow() const {
@@ -100,6 +119,10 @@ void NightsPart::reload() {
 
 void NightsPart::showLast() {
   setPossible(open_, nights_.empty() ? tr("There was no night yet") : QString());
+  if (isUnderWay_)
+    return last_->show(
+        Remark::Kind::watch, tr("A night is under way"),
+        tr("The show makes way while its picture is looked after. What comes of it is told here."));
   if (nights_.empty() && page_.installedShow() == OutputPage::InstalledShow::thisVenues &&
       page_.nightAt().isValid())
     return last_->show(

@@ -5,6 +5,7 @@
 #include <QDateTime>
 #include <QFileSystemWatcher>
 #include <QPushButton>
+#include <QTimer>
 #include <QWidget>
 #include <vector>
 
@@ -26,11 +27,13 @@ class NightsPart : public QWidget {
  protected:
   /// They may have become more while nobody looked.
   void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
 
  private:
   QDateTime writtenNow() const;
   void reload();
   void showLast();
+  void lookWhetherOneRuns();
   void showTime();
   void open();
 
@@ -39,6 +42,8 @@ class NightsPart : public QWidget {
   QFileSystemWatcher folder_;
   QDateTime written_;  // their file, as it was read
   bool isUnreadable_ = false;
+  bool isUnderWay_ = false;
+  QTimer looking_;  // whether one runs, while the part is seen
   Remark* last_;
   QLabel* what_;
   QComboBox* when_;

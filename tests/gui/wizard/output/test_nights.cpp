@@ -9,6 +9,7 @@
 #include "gui/wizard/output/night_history.h"
 #include "gui/wizard/simulated_session.h"
 #include "output/installation.h"
+#include "output/venue_use.h"
 #include "wizard/output/nights_dialog.h"
 #include "wizard/output/nights_part.h"
 #include "wizard/output/output_page.h"
@@ -64,6 +65,10 @@ class TestNights : public QObject {
     QCOMPARE(curveOf(chartOf(nights, NightFigure::colourError), "accent")->points.size(), 25);
     QCOMPARE(curveOf(chartOf(nights, NightFigure::psnr), "accent")->points.size(), 24);
     QCOMPARE(chartOf({}, NightFigure::psnr).curves.size(), 2);  // empty ones
+    // Of one night a line would be nothing to see.
+    const NightsChart first = chartOf({nights.front()}, NightFigure::psnr);
+    QVERIFY(curveOf(first, "information")->marker != charts::Marker::none);
+    QCOMPARE(curveOf(first, "information")->points.size(), 1);
   }
 
   void sentences() {
@@ -143,6 +148,12 @@ class TestNights : public QObject {
     // By another program, while somebody looks.
     addFourWeeks(own.session.path());
     QTRY_VERIFY(says("All is well") && open->isEnabled());
+    {
+      const auto night = VenueUse::take(own.session.path(), VenueUse::Way::night);
+      QVERIFY(night);
+      QTRY_VERIFY_WITH_TIMEOUT(says("A night is under way") && !says("All is well"), 10'000);
+    }
+    QTRY_VERIFY_WITH_TIMEOUT(says("All is well"), 10'000);
     NightRecord night;
     night.when = "2026-06-01T02:00:00Z";
     night.alarm = Message::plain("the lamp is off");

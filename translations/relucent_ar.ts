@@ -426,6 +426,18 @@
         <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
         <translation>بدت أنماط الاختبار هناك مختلفة عما قيس، فلا يُصحَّح شيء. تأكد من ثبات كل شيء، ثم قِس من جديد.</translation>
     </message>
+    <message>
+        <source>Measuring was stopped before anything was told apart</source>
+        <translation>أُوقف القياس قبل تمييز أي شيء</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>لا يمكن تصحيح أي صورة به. تابع القياس أو استعمل السابق، في «القياس».</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring any time.</source>
+        <translation>لا يمكن تصحيح أي صورة به. تابع القياس في أي وقت.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -2840,6 +2852,13 @@
     </message>
 </context>
 <context>
+    <name>night.part-not-as-predicted</name>
+    <message>
+        <source>a part of the surface looks otherwise than predicted, by a colour error of {}, and no repair helped</source>
+        <translation>جزء من السطح يبدو على غير ما تُوقِّع، بخطأ لوني قدره {}، ولم يُجدِ أي إصلاح</translation>
+    </message>
+</context>
+<context>
     <name>night.too-long</name>
     <message>
         <source>it was not done within six hours</source>
@@ -4122,6 +4141,18 @@
         <source>%1: all patterns are taken again, from the first.</source>
         <translation>%1: تُلتقط كل الأنماط من جديد، من أولها.</translation>
     </message>
+    <message>
+        <source>Measured in %1, and repaired since</source>
+        <translation>مدة القياس: %1، وأُصلح منذ ذلك</translation>
+    </message>
+    <message>
+        <source>Photographs of the repair since</source>
+        <translation>صور الإصلاح منذ ذلك</translation>
+    </message>
+    <message>
+        <source>Stopped too early</source>
+        <translation>أُوقف مبكرًا جدًا</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5140,6 +5171,10 @@
         <source>Another program plays a show of another venue on this projector</source>
         <translation>يشغّل برنامج آخر عرضًا لموقع آخر على جهاز العرض هذا</translation>
     </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged. Plug it in again: the show comes back by itself.</source>
+        <translation>شاشة جهاز العرض غير موصولة. أعد توصيلها، فيعود العرض تلقائيًا.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -5943,6 +5978,14 @@ projector %2</source>
         <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
         <translation>للعرض المثبَّت أول ليلة عند ⁨%1⁩، إن كان يعمل حينها. يجب أن تبقى كاميرته في مكانها.</translation>
     </message>
+    <message>
+        <source>A night is under way</source>
+        <translation>الليلة جارية الآن</translation>
+    </message>
+    <message>
+        <source>The show makes way while its picture is looked after. What comes of it is told here.</source>
+        <translation>يفسح العرض المجال بينما يُعتنى بصورته. وتُذكر النتيجة هنا.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6617,8 +6660,8 @@ projector %2</source>
         <translation>لا يمكن التحقق بعد</translation>
     </message>
     <message>
-        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
-        <translation>قيس ما تُظهره أو اختير من جديد منذ ذلك الحين. التقطها مرة أخرى للتحقق مما يُعرض الآن.</translation>
+        <source>What it was taken of has been measured or chosen anew since, or is another set. Take it again to prove what is shown now.</source>
+        <translation>قيس ما تُظهره أو اختير من جديد منذ ذلك الحين، أو هو مجموعة أخرى. التقطها مرة أخرى للتحقق مما يُعرض الآن.</translation>
     </message>
     <message>
         <source>As predicted, but errors are plain to see</source>
@@ -7219,6 +7262,30 @@ projector %2</source>
     <message>
         <source>A film plays to its end.</source>
         <translation>يُعرض الفيلم حتى نهايته.</translation>
+    </message>
+    <message>
+        <source>A part of the surface looks otherwise than predicted, by ΔE %1.</source>
+        <translation>جزء من السطح يبدو على غير ما تُوقِّع، بفارق ΔE %1.</translation>
+    </message>
+    <message>
+        <source>Installed, but the show cannot start with what was measured last.</source>
+        <translation>مُثبَّت، لكن العرض لا يمكن أن يبدأ بما قيس آخرًا.</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>تابع القياس أو استعمل السابق، في «القياس».</translation>
+    </message>
+    <message>
+        <source>Go on measuring at Acquire.</source>
+        <translation>تابع القياس في «القياس».</translation>
+    </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>ما قيس أخشن من أن يُوضع عليه محتوى. تابع القياس.</translation>
+    </message>
+    <message>
+        <source>Installed</source>
+        <translation>تم التثبيت</translation>
     </message>
 </context>
 <context>
@@ -8075,6 +8142,10 @@ projector %2</source>
     <message>
         <source>Uncorrected, in blocks of %1 px</source>
         <translation>بلا تصحيح، في كتل من ⁨%1⁩ px</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
+        <translation>متوقّع من القياس. يُعرض عرض برنامج آخر.</translation>
     </message>
 </context>
 <context>

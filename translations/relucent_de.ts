@@ -414,6 +414,18 @@
         <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
         <translation>Testmuster sahen dort anders aus als gemessen, und nichts wird korrigiert. Sorgen Sie dafür, dass alles still steht, dann messen Sie neu.</translation>
     </message>
+    <message>
+        <source>Measuring was stopped before anything was told apart</source>
+        <translation>Das Messen wurde beendet, bevor etwas unterschieden war</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>Damit lässt sich kein Bild korrigieren. Messen Sie weiter, oder nehmen Sie die frühere Messung, bei „Erfassen“.</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring any time.</source>
+        <translation>Damit lässt sich kein Bild korrigieren. Messen Sie jederzeit weiter.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -2816,6 +2828,13 @@
     </message>
 </context>
 <context>
+    <name>night.part-not-as-predicted</name>
+    <message>
+        <source>a part of the surface looks otherwise than predicted, by a colour error of {}, and no repair helped</source>
+        <translation>ein Teil der Oberfläche sieht anders aus als vorhergesagt, um einen Farbfehler von {}, und keine Reparatur half</translation>
+    </message>
+</context>
+<context>
     <name>night.too-long</name>
     <message>
         <source>it was not done within six hours</source>
@@ -4034,6 +4053,18 @@
         <source>%1: all patterns are taken again, from the first.</source>
         <translation>%1: Alle Muster werden noch einmal aufgenommen, vom ersten an.</translation>
     </message>
+    <message>
+        <source>Measured in %1, and repaired since</source>
+        <translation>Gemessen in %1 und seither repariert</translation>
+    </message>
+    <message>
+        <source>Photographs of the repair since</source>
+        <translation>Fotos der Reparatur seither</translation>
+    </message>
+    <message>
+        <source>Stopped too early</source>
+        <translation>Zu früh beendet</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5024,6 +5055,10 @@
         <source>Another program plays a show of another venue on this projector</source>
         <translation>Ein anderes Programm spielt auf diesem Projektor eine Show eines anderen Spielorts</translation>
     </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged. Plug it in again: the show comes back by itself.</source>
+        <translation>Der Bildschirm des Projektors ist getrennt. Schließen Sie ihn wieder an: Die Show kommt von selbst zurück.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -5803,6 +5838,14 @@ Projektor %2</translation>
         <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
         <translation>Die installierte Show hat ihre erste um %1, wenn sie dann läuft. Ihre Kamera muss bleiben, wo sie ist.</translation>
     </message>
+    <message>
+        <source>A night is under way</source>
+        <translation>Eine Nacht läuft gerade</translation>
+    </message>
+    <message>
+        <source>The show makes way while its picture is looked after. What comes of it is told here.</source>
+        <translation>Die Show macht Platz, während nach ihrem Bild gesehen wird. Was dabei herauskommt, steht dann hier.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6473,8 +6516,8 @@ Projektor %2</translation>
         <translation>Noch nicht zu prüfen</translation>
     </message>
     <message>
-        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
-        <translation>Was es zeigt, wurde seitdem neu gemessen oder gewählt. Nehmen Sie es neu auf, um zu prüfen, was jetzt gezeigt wird.</translation>
+        <source>What it was taken of has been measured or chosen anew since, or is another set. Take it again to prove what is shown now.</source>
+        <translation>Was es zeigt, wurde seitdem neu gemessen oder gewählt, oder ist eine andere Variante. Nehmen Sie es neu auf, um zu prüfen, was jetzt gezeigt wird.</translation>
     </message>
     <message>
         <source>As predicted, but errors are plain to see</source>
@@ -7075,6 +7118,30 @@ Projektor %2</translation>
     <message>
         <source>A film plays to its end.</source>
         <translation>Ein Film läuft bis zu seinem Ende.</translation>
+    </message>
+    <message>
+        <source>A part of the surface looks otherwise than predicted, by ΔE %1.</source>
+        <translation>Ein Teil der Oberfläche sieht anders aus als vorhergesagt, um ΔE %1.</translation>
+    </message>
+    <message>
+        <source>Installed, but the show cannot start with what was measured last.</source>
+        <translation>Installiert, aber mit der letzten Messung kann die Show nicht starten.</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>Messen Sie weiter, oder nehmen Sie die frühere Messung, bei „Erfassen“.</translation>
+    </message>
+    <message>
+        <source>Go on measuring at Acquire.</source>
+        <translation>Messen Sie bei „Erfassen“ weiter.</translation>
+    </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>Was gemessen wurde, ist zu grob, um Inhalte zu platzieren. Messen Sie weiter.</translation>
+    </message>
+    <message>
+        <source>Installed</source>
+        <translation>Installiert</translation>
     </message>
 </context>
 <context>
@@ -7923,6 +7990,10 @@ Projektor %2</translation>
     <message>
         <source>Uncorrected, in blocks of %1 px</source>
         <translation>Unkorrigiert, in Blöcken von %1 px</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
+        <translation>Aus der Messung vorhergesagt. Projiziert wird die Show eines anderen Programms.</translation>
     </message>
 </context>
 <context>

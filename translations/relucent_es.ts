@@ -414,6 +414,18 @@
         <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
         <translation>Allí los patrones de prueba se vieron distintos de lo medido, y no se corrige nada. Procure que todo esté quieto y mida de nuevo.</translation>
     </message>
+    <message>
+        <source>Measuring was stopped before anything was told apart</source>
+        <translation>La medición se detuvo antes de distinguir nada</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>Con ella no se puede corregir ninguna imagen. Siga midiendo o use la anterior, en «Adquisición».</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring any time.</source>
+        <translation>Con ella no se puede corregir ninguna imagen. Siga midiendo cuando quiera.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -2816,6 +2828,13 @@
     </message>
 </context>
 <context>
+    <name>night.part-not-as-predicted</name>
+    <message>
+        <source>a part of the surface looks otherwise than predicted, by a colour error of {}, and no repair helped</source>
+        <translation>una parte de la superficie no se ve como se predijo, con un error de color de {}, y ninguna reparación ayudó</translation>
+    </message>
+</context>
+<context>
     <name>night.too-long</name>
     <message>
         <source>it was not done within six hours</source>
@@ -4034,6 +4053,18 @@
         <source>%1: all patterns are taken again, from the first.</source>
         <translation>%1: se vuelven a tomar todos los patrones, desde el primero.</translation>
     </message>
+    <message>
+        <source>Measured in %1, and repaired since</source>
+        <translation>Medido en %1 y reparado después</translation>
+    </message>
+    <message>
+        <source>Photographs of the repair since</source>
+        <translation>Fotos de la reparación posterior</translation>
+    </message>
+    <message>
+        <source>Stopped too early</source>
+        <translation>Detenida demasiado pronto</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5024,6 +5055,10 @@
         <source>Another program plays a show of another venue on this projector</source>
         <translation>Otro programa está reproduciendo un show de otro lugar en este proyector</translation>
     </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged. Plug it in again: the show comes back by itself.</source>
+        <translation>La pantalla del proyector está desconectada. Vuelva a conectarla: el show vuelve por sí solo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -5803,6 +5838,14 @@ proyector %2</translation>
         <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
         <translation>El show instalado tiene la primera a las %1, si para entonces está en marcha. Su cámara tiene que quedarse donde está.</translation>
     </message>
+    <message>
+        <source>A night is under way</source>
+        <translation>Hay una noche en curso</translation>
+    </message>
+    <message>
+        <source>The show makes way while its picture is looked after. What comes of it is told here.</source>
+        <translation>El show cede el paso mientras se cuida su imagen. Aquí se dirá el resultado.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6473,8 +6516,8 @@ proyector %2</translation>
         <translation>Aún no se puede verificar</translation>
     </message>
     <message>
-        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
-        <translation>Lo que muestra se ha medido o elegido de nuevo desde entonces. Tómela otra vez para verificar lo que se muestra ahora.</translation>
+        <source>What it was taken of has been measured or chosen anew since, or is another set. Take it again to prove what is shown now.</source>
+        <translation>Lo que muestra se ha medido o elegido de nuevo desde entonces, o es otra variante. Tómela otra vez para verificar lo que se muestra ahora.</translation>
     </message>
     <message>
         <source>As predicted, but errors are plain to see</source>
@@ -7075,6 +7118,30 @@ proyector %2</translation>
     <message>
         <source>A film plays to its end.</source>
         <translation>Una película se reproduce hasta el final.</translation>
+    </message>
+    <message>
+        <source>A part of the surface looks otherwise than predicted, by ΔE %1.</source>
+        <translation>Una parte de la superficie no se ve como se predijo: ΔE %1.</translation>
+    </message>
+    <message>
+        <source>Installed, but the show cannot start with what was measured last.</source>
+        <translation>Instalado, pero el show no puede empezar con lo último que se midió.</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>Siga midiendo o use la anterior, en «Adquisición».</translation>
+    </message>
+    <message>
+        <source>Go on measuring at Acquire.</source>
+        <translation>Siga midiendo en «Adquisición».</translation>
+    </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>Lo medido es demasiado basto para colocar contenido. Siga midiendo.</translation>
+    </message>
+    <message>
+        <source>Installed</source>
+        <translation>Instalado</translation>
     </message>
 </context>
 <context>
@@ -7923,6 +7990,10 @@ proyector %2</translation>
     <message>
         <source>Uncorrected, in blocks of %1 px</source>
         <translation>Sin corregir, en bloques de %1 px</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
+        <translation>Previsto a partir de la medición. Se proyecta el show de otro programa.</translation>
     </message>
 </context>
 <context>

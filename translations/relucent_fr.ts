@@ -414,6 +414,18 @@
         <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
         <translation>Les mires de test y différaient de la mesure, et rien n’est corrigé. Veillez à ce que tout reste immobile, puis mesurez à nouveau.</translation>
     </message>
+    <message>
+        <source>Measuring was stopped before anything was told apart</source>
+        <translation>La mesure a été arrêtée avant de rien distinguer</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>Aucune image ne peut être corrigée avec elle. Continuez la mesure, ou utilisez la précédente, à « Acquisition ».</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring any time.</source>
+        <translation>Aucune image ne peut être corrigée avec elle. Continuez la mesure quand vous voulez.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -2816,6 +2828,13 @@
     </message>
 </context>
 <context>
+    <name>night.part-not-as-predicted</name>
+    <message>
+        <source>a part of the surface looks otherwise than predicted, by a colour error of {}, and no repair helped</source>
+        <translation>une partie de la surface n’a pas l’aspect prédit, avec une erreur de couleur de {}, et aucune réparation n’a aidé</translation>
+    </message>
+</context>
+<context>
     <name>night.too-long</name>
     <message>
         <source>it was not done within six hours</source>
@@ -4034,6 +4053,18 @@
         <source>%1: all patterns are taken again, from the first.</source>
         <translation>%1 : tous les motifs sont repris, depuis le premier.</translation>
     </message>
+    <message>
+        <source>Measured in %1, and repaired since</source>
+        <translation>Mesuré en %1, et réparé depuis</translation>
+    </message>
+    <message>
+        <source>Photographs of the repair since</source>
+        <translation>Photos de la réparation depuis</translation>
+    </message>
+    <message>
+        <source>Stopped too early</source>
+        <translation>Arrêtée trop tôt</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5024,6 +5055,10 @@
         <source>Another program plays a show of another venue on this projector</source>
         <translation>Un autre programme diffuse un autre lieu sur ce projecteur</translation>
     </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged. Plug it in again: the show comes back by itself.</source>
+        <translation>L’écran du projecteur est débranché. Rebranchez-le : la diffusion revient d’elle-même.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -5803,6 +5838,14 @@ projecteur %2</translation>
         <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
         <translation>La diffusion installée a sa première à %1, si elle tourne à ce moment-là. Sa caméra doit rester où elle est.</translation>
     </message>
+    <message>
+        <source>A night is under way</source>
+        <translation>Une nuit est en cours</translation>
+    </message>
+    <message>
+        <source>The show makes way while its picture is looked after. What comes of it is told here.</source>
+        <translation>La diffusion cède la place pendant que l’on s’occupe de son image. Le résultat sera indiqué ici.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6473,8 +6516,8 @@ projecteur %2</translation>
         <translation>Pas encore à contrôler</translation>
     </message>
     <message>
-        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
-        <translation>Ce qu’elle montre a été mesuré ou choisi à nouveau depuis. Reprenez-la pour contrôler ce qui est montré maintenant.</translation>
+        <source>What it was taken of has been measured or chosen anew since, or is another set. Take it again to prove what is shown now.</source>
+        <translation>Ce qu’elle montre a été mesuré ou choisi à nouveau depuis, ou est une autre variante. Reprenez-la pour contrôler ce qui est montré maintenant.</translation>
     </message>
     <message>
         <source>As predicted, but errors are plain to see</source>
@@ -7075,6 +7118,30 @@ projecteur %2</translation>
     <message>
         <source>A film plays to its end.</source>
         <translation>Un film est lu jusqu’à sa fin.</translation>
+    </message>
+    <message>
+        <source>A part of the surface looks otherwise than predicted, by ΔE %1.</source>
+        <translation>Une partie de la surface n’a pas l’aspect prédit : ΔE %1.</translation>
+    </message>
+    <message>
+        <source>Installed, but the show cannot start with what was measured last.</source>
+        <translation>Installée, mais la diffusion ne peut pas démarrer avec la dernière mesure.</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>Continuez la mesure, ou utilisez la précédente, à « Acquisition ».</translation>
+    </message>
+    <message>
+        <source>Go on measuring at Acquire.</source>
+        <translation>Continuez à « Acquisition ».</translation>
+    </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>La mesure est trop grossière pour placer un contenu. Continuez la mesure.</translation>
+    </message>
+    <message>
+        <source>Installed</source>
+        <translation>Installée</translation>
     </message>
 </context>
 <context>
@@ -7923,6 +7990,10 @@ projecteur %2</translation>
     <message>
         <source>Uncorrected, in blocks of %1 px</source>
         <translation>Non corrigée, par blocs de %1 px</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
+        <translation>Prévu d’après la mesure. La diffusion d’un autre programme est projetée.</translation>
     </message>
 </context>
 <context>

@@ -414,6 +414,18 @@
         <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
         <translation>Lì i motivi di prova erano diversi da quanto misurato, e non si corregge nulla. Fare in modo che tutto resti fermo, poi misurare di nuovo.</translation>
     </message>
+    <message>
+        <source>Measuring was stopped before anything was told apart</source>
+        <translation>La misura è stata interrotta prima di distinguere qualcosa</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>Con questa non si può correggere alcuna immagine. Continuare a misurare o usare quella precedente, in «Acquisizione».</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring any time.</source>
+        <translation>Con questa non si può correggere alcuna immagine. Continuare a misurare in qualsiasi momento.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -2816,6 +2828,13 @@
     </message>
 </context>
 <context>
+    <name>night.part-not-as-predicted</name>
+    <message>
+        <source>a part of the surface looks otherwise than predicted, by a colour error of {}, and no repair helped</source>
+        <translation>una parte della superficie non appare come previsto, con un errore di colore di {}, e nessuna riparazione è servita</translation>
+    </message>
+</context>
+<context>
     <name>night.too-long</name>
     <message>
         <source>it was not done within six hours</source>
@@ -4034,6 +4053,18 @@
         <source>%1: all patterns are taken again, from the first.</source>
         <translation>%1: tutti i pattern vengono ripresi, dal primo.</translation>
     </message>
+    <message>
+        <source>Measured in %1, and repaired since</source>
+        <translation>Misurato in %1, poi riparato</translation>
+    </message>
+    <message>
+        <source>Photographs of the repair since</source>
+        <translation>Foto della riparazione successiva</translation>
+    </message>
+    <message>
+        <source>Stopped too early</source>
+        <translation>Interrotta troppo presto</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5024,6 +5055,10 @@
         <source>Another program plays a show of another venue on this projector</source>
         <translation>Un altro programma sta riproducendo uno show di un altro luogo su questo proiettore</translation>
     </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged. Plug it in again: the show comes back by itself.</source>
+        <translation>Lo schermo del proiettore è scollegato. Ricollegarlo: lo show torna da solo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -5803,6 +5838,14 @@ proiettore %2</translation>
         <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
         <translation>Lo show installato ha la prima alle %1, se per allora è in corso. La sua fotocamera deve restare dov’è.</translation>
     </message>
+    <message>
+        <source>A night is under way</source>
+        <translation>Una notte è in corso</translation>
+    </message>
+    <message>
+        <source>The show makes way while its picture is looked after. What comes of it is told here.</source>
+        <translation>Lo show fa posto mentre ci si occupa della sua immagine. L’esito verrà indicato qui.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6473,8 +6516,8 @@ proiettore %2</translation>
         <translation>Ancora da non verificare</translation>
     </message>
     <message>
-        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
-        <translation>Ciò che mostra è stato nel frattempo misurato o scelto di nuovo. Scattarla ancora per verificare ciò che si vede ora.</translation>
+        <source>What it was taken of has been measured or chosen anew since, or is another set. Take it again to prove what is shown now.</source>
+        <translation>Ciò che mostra è stato nel frattempo misurato o scelto di nuovo, o è un’altra variante. Scattarla ancora per verificare ciò che si vede ora.</translation>
     </message>
     <message>
         <source>As predicted, but errors are plain to see</source>
@@ -7075,6 +7118,30 @@ proiettore %2</translation>
     <message>
         <source>A film plays to its end.</source>
         <translation>Un filmato viene riprodotto fino alla fine.</translation>
+    </message>
+    <message>
+        <source>A part of the surface looks otherwise than predicted, by ΔE %1.</source>
+        <translation>Una parte della superficie non appare come previsto: ΔE %1.</translation>
+    </message>
+    <message>
+        <source>Installed, but the show cannot start with what was measured last.</source>
+        <translation>Installato, ma lo show non può iniziare con l’ultima misura.</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>Continuare a misurare o usare quella precedente, in «Acquisizione».</translation>
+    </message>
+    <message>
+        <source>Go on measuring at Acquire.</source>
+        <translation>Continuare in «Acquisizione».</translation>
+    </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>Ciò che è misurato è troppo grossolano per collocare contenuti. Continuare la misura.</translation>
+    </message>
+    <message>
+        <source>Installed</source>
+        <translation>Installato</translation>
     </message>
 </context>
 <context>
@@ -7923,6 +7990,10 @@ proiettore %2</translation>
     <message>
         <source>Uncorrected, in blocks of %1 px</source>
         <translation>Non corretta, a blocchi di %1 px</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
+        <translation>Previsto dalla misura. Viene proiettato lo show di un altro programma.</translation>
     </message>
 </context>
 <context>

@@ -411,6 +411,18 @@
         <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
         <translation>そこではテストパターンが測定と異なって見え、何も補正されません。すべてが静止していることを確かめてから、もう一度測定してください。</translation>
     </message>
+    <message>
+        <source>Measuring was stopped before anything was told apart</source>
+        <translation>何も区別できないうちに測定が停止されました</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>これでは映像を補正できません。「光輸送測定」で、測定を続けるか以前の測定を使ってください。</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring any time.</source>
+        <translation>これでは映像を補正できません。いつでも測定を続けられます。</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -2810,6 +2822,13 @@
     </message>
 </context>
 <context>
+    <name>night.part-not-as-predicted</name>
+    <message>
+        <source>a part of the surface looks otherwise than predicted, by a colour error of {}, and no repair helped</source>
+        <translation>表面の一部が予測と異なって見え、色の誤差は {} で、修復しても改善しませんでした</translation>
+    </message>
+</context>
+<context>
     <name>night.too-long</name>
     <message>
         <source>it was not done within six hours</source>
@@ -4012,6 +4031,18 @@
         <source>%1: all patterns are taken again, from the first.</source>
         <translation>%1: すべてのパターンを最初から撮り直しています。</translation>
     </message>
+    <message>
+        <source>Measured in %1, and repaired since</source>
+        <translation>測定時間 %1、その後修復</translation>
+    </message>
+    <message>
+        <source>Photographs of the repair since</source>
+        <translation>その後の修復の撮影枚数</translation>
+    </message>
+    <message>
+        <source>Stopped too early</source>
+        <translation>停止が早すぎます</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4995,6 +5026,10 @@
         <source>Another program plays a show of another venue on this projector</source>
         <translation>別のプログラムがこのプロジェクターで別の会場のショーを再生しています</translation>
     </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged. Plug it in again: the show comes back by itself.</source>
+        <translation>プロジェクターの画面が外れています。接続し直すと、ショーは自動的に戻ります。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -5768,6 +5803,14 @@ projector %2</source>
         <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
         <translation>インストール済みのショーは、その時点で動いていれば %1 に最初の夜間手入れを行います。カメラはその場所に置いたままにしてください。</translation>
     </message>
+    <message>
+        <source>A night is under way</source>
+        <translation>夜間の手入れを実行中です</translation>
+    </message>
+    <message>
+        <source>The show makes way while its picture is looked after. What comes of it is told here.</source>
+        <translation>映像の手入れのあいだ、ショーは場所を空けます。結果はここに表示されます。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6437,8 +6480,8 @@ projector %2</source>
         <translation>まだ検証できません</translation>
     </message>
     <message>
-        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
-        <translation>撮影後に、測定または設定が変わりました。今の表示を検証するには撮影し直してください。</translation>
+        <source>What it was taken of has been measured or chosen anew since, or is another set. Take it again to prove what is shown now.</source>
+        <translation>撮影後に、測定または設定が変わったか、別のセットです。今の表示を検証するには撮影し直してください。</translation>
     </message>
     <message>
         <source>As predicted, but errors are plain to see</source>
@@ -7039,6 +7082,30 @@ projector %2</source>
     <message>
         <source>A film plays to its end.</source>
         <translation>動画は最後まで再生されます。</translation>
+    </message>
+    <message>
+        <source>A part of the surface looks otherwise than predicted, by ΔE %1.</source>
+        <translation>表面の一部が予測と異なって見えます（ΔE %1）。</translation>
+    </message>
+    <message>
+        <source>Installed, but the show cannot start with what was measured last.</source>
+        <translation>インストール済みですが、最後の測定ではショーを開始できません。</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>「光輸送測定」で、測定を続けるか以前の測定を使ってください。</translation>
+    </message>
+    <message>
+        <source>Go on measuring at Acquire.</source>
+        <translation>「光輸送測定」で測定を続けてください。</translation>
+    </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>測定が粗すぎて、コンテンツを配置できません。測定を続けてください。</translation>
+    </message>
+    <message>
+        <source>Installed</source>
+        <translation>インストール済み</translation>
     </message>
 </context>
 <context>
@@ -7885,6 +7952,10 @@ projector %2</source>
     <message>
         <source>Uncorrected, in blocks of %1 px</source>
         <translation>補正なし（%1 px のブロック）</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
+        <translation>測定からの予測です。別のプログラムのショーが投影されています。</translation>
     </message>
 </context>
 <context>

@@ -411,6 +411,18 @@
         <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
         <translation>那里的测试图案与测量结果不符，不会得到校正。请确保一切静止，然后重新测量。</translation>
     </message>
+    <message>
+        <source>Measuring was stopped before anything was told apart</source>
+        <translation>在分辨出任何位置之前测量已停止</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>无法用它校正任何画面。请到“采集”继续测量，或使用先前的测量。</translation>
+    </message>
+    <message>
+        <source>No picture can be corrected by it. Go on measuring any time.</source>
+        <translation>无法用它校正任何画面。可随时继续测量。</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -2810,6 +2822,13 @@
     </message>
 </context>
 <context>
+    <name>night.part-not-as-predicted</name>
+    <message>
+        <source>a part of the surface looks otherwise than predicted, by a colour error of {}, and no repair helped</source>
+        <translation>表面的一部分与预测不同，色差为 {}，修复无效</translation>
+    </message>
+</context>
+<context>
     <name>night.too-long</name>
     <message>
         <source>it was not done within six hours</source>
@@ -4012,6 +4031,18 @@
         <source>%1: all patterns are taken again, from the first.</source>
         <translation>%1：所有图案从第一个开始重新拍摄。</translation>
     </message>
+    <message>
+        <source>Measured in %1, and repaired since</source>
+        <translation>测量用时 %1，之后已修复</translation>
+    </message>
+    <message>
+        <source>Photographs of the repair since</source>
+        <translation>之后修复的照片数</translation>
+    </message>
+    <message>
+        <source>Stopped too early</source>
+        <translation>停止过早</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4995,6 +5026,10 @@
         <source>Another program plays a show of another venue on this projector</source>
         <translation>另一个程序正在此投影机上播放另一场地的节目</translation>
     </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged. Plug it in again: the show comes back by itself.</source>
+        <translation>投影机的屏幕已断开。重新接上后，节目会自动恢复。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::DeviceSelector</name>
@@ -5768,6 +5803,14 @@ projector %2</source>
         <source>The installed show has its first one at %1, if it plays by then. Its camera has to stay where it is.</source>
         <translation>已安装的节目若届时在播放，第一次将在 %1 进行。它的相机必须留在原处。</translation>
     </message>
+    <message>
+        <source>A night is under way</source>
+        <translation>夜间维护正在进行</translation>
+    </message>
+    <message>
+        <source>The show makes way while its picture is looked after. What comes of it is told here.</source>
+        <translation>在维护画面期间，节目会让出投影。结果会显示在这里。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NudgeDialog</name>
@@ -6437,8 +6480,8 @@ projector %2</source>
         <translation>尚不能验证</translation>
     </message>
     <message>
-        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
-        <translation>拍摄之后又重新测量或更改过。请重新拍摄，以验证现在显示的内容。</translation>
+        <source>What it was taken of has been measured or chosen anew since, or is another set. Take it again to prove what is shown now.</source>
+        <translation>拍摄之后又重新测量或更改过，或属于另一个方案。请重新拍摄，以验证现在显示的内容。</translation>
     </message>
     <message>
         <source>As predicted, but errors are plain to see</source>
@@ -7039,6 +7082,30 @@ projector %2</source>
     <message>
         <source>A film plays to its end.</source>
         <translation>影片会播放到结束。</translation>
+    </message>
+    <message>
+        <source>A part of the surface looks otherwise than predicted, by ΔE %1.</source>
+        <translation>表面的一部分与预测不同，ΔE %1。</translation>
+    </message>
+    <message>
+        <source>Installed, but the show cannot start with what was measured last.</source>
+        <translation>已安装，但用最后一次测量无法开始节目。</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or use the earlier one, at Acquire.</source>
+        <translation>请到“采集”继续测量，或使用先前的测量。</translation>
+    </message>
+    <message>
+        <source>Go on measuring at Acquire.</source>
+        <translation>请到“采集”继续测量。</translation>
+    </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>测量过于粗略，无法放置内容。请继续测量。</translation>
+    </message>
+    <message>
+        <source>Installed</source>
+        <translation>已安装</translation>
     </message>
 </context>
 <context>
@@ -7885,6 +7952,10 @@ projector %2</source>
     <message>
         <source>Uncorrected, in blocks of %1 px</source>
         <translation>未校正，以 %1 px 的块显示</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
+        <translation>根据测量预测。正在投影另一个程序的节目。</translation>
     </message>
 </context>
 <context>

@@ -20,7 +20,7 @@
 namespace relucent::gui {
 namespace {
 
-constexpr std::chrono::seconds beforeRetry{5};
+constexpr std::chrono::seconds beforeRetry{5}, waitsWhileEnding{15};
 
 }  // namespace
 
@@ -63,8 +63,11 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
   connect(&session_, &Session::roomLightChanged, this, &AcquirePage::resultChanged);
   connect(&session_, &Session::acquisitionChanged, this, &AcquirePage::tellAll);
   connect(&session_, &Session::devicesChanged, this, [this] {
-    // Whoever has asked to stop does not wait for a camera that has gone.
-    if (isStopping()) session_.giveUpCamera();
+    // Whoever has asked to stop does not wait for a camera that has gone; but one that is late for a moment
+    // would cost all that no check has confirmed yet.
+    const bool isWaitedFor = isStopping() && session_.isCameraSilent();
+    if (!isWaitedFor) givingUp_.stop();
+    if (isWaitedFor && !givingUp_.isActive()) givingUp_.start();
     tellSettings();
     tellProgress();  // it waits, or does so no longer
   });
@@ -83,6 +86,11 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
   connect(&leaving_, &QTimer::timeout, this, [this] {
     if (--secondsLeftToLeave_ > 0) return tellStatus();
     begin();
+  });
+  givingUp_.setSingleShot(true);
+  givingUp_.setInterval(waitsWhileEnding);
+  connect(&givingUp_, &QTimer::timeout, this, [this] {
+    if (isStopping()) session_.giveUpCamera();
   });
   second_.setInterval(1000);
   connect(&second_, &QTimer::timeout, this, &AcquirePage::tick);
@@ -131,7 +139,8 @@ StepStatus AcquirePage::status() const {
     case calibration::StageProgress::done:
       if (session_.foundChange()) return {StepState::coarse, tr("Ended by a change")};
       if (const int blocks = stoppedAt(); blocks > 0)
-        return {StepState::coarse, tr("Stopped at %1 px").arg(blocks)};
+        return {StepState::coarse,
+                isNothingToldApart(session_) ? tr("Stopped too early") : tr("Stopped at %1 px").arg(blocks)};
       if (const auto poor = session_.poorQuality())
         return {StepState::doubtful, tr("%1 expected").arg(isolated(tr("%1 dB").arg(decimalText(*poor, 0))))};
       if (const auto holes = session_.leftOut())
@@ -191,7 +200,9 @@ QString AcquirePage::hint() const {
     return tr("To go on measuring, confirm that the room is clear.");
   if (isDone()) {
     const QString spent = text(spentDuration(cost().value_or(calibration::StageCost()).seconds));
-    return stoppedAt() > 0 ? tr("Stopped after %1").arg(spent) : tr("Measured in %1").arg(spent);
+    return stoppedAt() > 0 ? tr("Stopped after %1").arg(spent)
+           : repairCost()  ? tr("Measured in %1, and repaired since").arg(spent)
+                           : tr("Measured in %1").arg(spent);
   }
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear: the patterns flash.");
   if (auto work = kept_ == 0 ? expected() : std::nullopt) {
@@ -375,7 +386,9 @@ Banner AcquirePage::changedBanner(const transport::FoundChange& change) const {
 }
 
 Banner AcquirePage::stoppedBanner() const {
-  const QString title = tr("Measuring was stopped at blocks of %1 px").arg(stoppedAt());
+  const QString title = isNothingToldApart(session_)
+                            ? nothingToldApart()
+                            : tr("Measuring was stopped at blocks of %1 px").arg(stoppedAt());
   const std::optional<transport::ExpectedQuality> quality = expectedQuality();
   if (!quality)
     return {Banner::Kind::amber, title, tr("Finer light is missing. Go on any time, if nothing has moved."),
@@ -406,6 +419,11 @@ QString AcquirePage::watching() const {
       "help, "
       "the measurement pauses and asks.",
       nullptr, session_.settings().acquisition.checkInterval);
+}
+
+std::optional<calibration::StageCost> AcquirePage::repairCost() const {
+  const auto& measured = session_.figures<calibration::Stage::acquisition>();
+  return measured && measured->repair ? std::optional(measured->repair->cost) : std::nullopt;
 }
 
 std::optional<calibration::StageCost> AcquirePage::cost() const {

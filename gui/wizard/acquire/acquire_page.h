@@ -113,6 +113,8 @@ class AcquirePage : public DevicePage {
   QString watching() const;
   /// What it cost, as far as the folder tells.
   std::optional<calibration::StageCost> cost() const;
+  /// Of the repair since; none: it is as it was measured.
+  std::optional<calibration::StageCost> repairCost() const;
   /// It takes the place of an earlier measurement, which can be gone back to.
   bool isMeasuringAgain() const {
     return isMeasuring() && (anew_ || session_.mayReturnToEarlier(calibration::Stage::acquisition));
@@ -272,6 +274,7 @@ class AcquirePage : public DevicePage {
   bool returns_ = false;        // when it has ended
   QTimer second_;
   QTimer leaving_;  // a second each
+  QTimer givingUp_;
   int secondsToLeave_ = 0, secondsLeftToLeave_ = 0;
   bool sound_ = true;
   std::optional<sentinels::Alarm> alarm_;  // the last

@@ -155,21 +155,25 @@ QWidget* resultPart(AcquirePage& model) {
   rows->addWidget(labelOf(AcquirePage::tr("What was measured"), "section"));
   auto* patterns = new ValueRow(AcquirePage::tr("Patterns"));
   auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
+  auto* repair = new ValueRow(AcquirePage::tr("Photographs of the repair since"));
   auto* error = new ValueRow(AcquirePage::tr("Error of the test patterns"));
   auto* quality = new ValueRow(AcquirePage::tr("Pictures expected at"));
   quality->setToolTip(qualityMeaning());
-  for (ValueRow* row : {patterns, photographs, error, quality}) rows->addWidget(row);
+  for (ValueRow* row : {patterns, photographs, repair, error, quality}) rows->addWidget(row);
   QLabel* meaning = labelOf({}, "note");
   rows->addWidget(meaning);
   auto* findings = new Note(Note::Kind::amber);
   findings->setObjectName("findings");
   rows->addWidget(findings);
-  auto refresh = [&model, part, patterns, photographs, error, quality, meaning, findings] {
+  auto refresh = [&model, part, patterns, photographs, repair, error, quality, meaning, findings] {
     const calibration::StageCost cost = model.cost().value_or(calibration::StageCost());
     const auto count = [](int number) { return countText(static_cast<std::uint64_t>(number)); };
     part->setVisible(model.verificationError().has_value());
     patterns->setValue(count(cost.patterns));
     photographs->setValue(count(cost.exposures));
+    const std::optional<calibration::StageCost> repaired = model.repairCost();
+    repair->setVisible(repaired.has_value());
+    if (repaired) repair->setValue(count(repaired->exposures));
     // Test patterns that were not confirmed tell nothing; nor do those of blocks as coarse as what was
     // measured, beside how far pictures will be off.
     const int stoppedAt = model.stoppedAt();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/devices/device_page.h"
 
+#include "wizard/session/missing_screen.h"
+
 namespace relucent::gui {
 
 DevicePage::DevicePage(const StepName& step, Session& session, QObject* parent)
@@ -50,8 +52,11 @@ std::optional<Banner> DevicePage::besideAnotherShow() const {
       Banner::Kind::amber,
       session_.isAnotherVenueShown() ? tr("Another program plays a show of another venue on this projector")
                                      : tr("Another program plays a show of this venue"),
-      tr("Its pictures shine on the projector whatever is shown from here, and may come between patterns "
-         "that are measured."),
+      !missingScreen(session_).isEmpty()
+          ? tr("The projector's screen is unplugged. Plug it in again: the show comes back by itself.")
+          : tr("Its pictures shine on the projector whatever is shown from here, and may come between "
+               "patterns "
+               "that are measured."),
       endShow_};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QCoreApplication>
+#include <algorithm>
 
 #include "text/message_text.h"
 #include "views/number_text.h"
@@ -23,6 +24,16 @@ inline bool areClustersFollowed(const Session& session) {
   return session.progress(calibration::Stage::content) == calibration::StageProgress::done;
 }
 
+/// Measuring was stopped before blocks of the projector were told apart: no picture can be put anywhere with
+/// that, and no show starts.
+inline bool isNothingToldApart(const Session& session) {
+  const Size projector = session.projectorSize();
+  return session.stoppedAt() >= std::min(projector.width, projector.height) && session.stoppedAt() > 0;
+}
+inline QString nothingToldApart() {
+  return QCoreApplication::translate("StoppedEarly", "Measuring was stopped before anything was told apart");
+}
+
 /// What stands above the pages that use a measurement which was stopped early, fits nothing or has holes;
 /// none: it is whole. `toAcquire`: leads to where it can be gone on with, or begun again.
 inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* toAcquire) {
@@ -33,6 +44,16 @@ inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* 
         fullSentence(change->what) + ' ' +
             QCoreApplication::translate("StoppedEarly",
                                         "What follows is of before. See at Acquire what helps."),
+        toAcquire};
+  if (isNothingToldApart(session))
+    return Banner{
+        Banner::Kind::amber, nothingToldApart(),
+        session.hasEarlier(calibration::Stage::acquisition)
+            ? QCoreApplication::translate(
+                  "StoppedEarly",
+                  "No picture can be corrected by it. Go on measuring, or use the earlier one, at Acquire.")
+            : QCoreApplication::translate("StoppedEarly",
+                                          "No picture can be corrected by it. Go on measuring any time."),
         toAcquire};
   if (const int blocks = session.stoppedAt(); blocks > 0)
     return Banner{

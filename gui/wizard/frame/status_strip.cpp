@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "jobs/free_space.h"
-#include "output/window_projector.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/calibration/patient_shot_log.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
 #include "wizard/session/device_label.h"
+#include "wizard/session/missing_screen.h"
 
 namespace relucent::gui {
 namespace {
@@ -100,15 +100,6 @@ void StatusStrip::resizeEvent(QResizeEvent* event) {
   for (QLabel* name : names_) name->setVisible(width() >= namesFrom);
 }
 
-/// The connector of the first projector whose screen is not there; empty: all are.
-QString StatusStrip::missingScreen() const {
-  for (std::size_t projector = 0; projector < session_.projectors(); ++projector)
-    if (const auto screen = session_.screenOf(projector);
-        screen && findScreen(identityOf(screen->display)) == nullptr)
-      return QString::fromStdString(screen->display.connector);
-  return {};
-}
-
 void StatusStrip::say(const QString& sentence) {
   constexpr int seconds = 8;
   said_.start(1000 * seconds);
@@ -117,7 +108,7 @@ void StatusStrip::say(const QString& sentence) {
 }
 
 bool StatusStrip::isScreenThere() const {
-  return missingScreen().isEmpty();
+  return missingScreen(session_).isEmpty();
 }
 
 /// Amber where measuring pauses for want of room.
@@ -129,7 +120,7 @@ void StatusStrip::showDisk(const QString& folder) {
 
 /// Its size, and what it is; that it is not there where nobody waits for it, either.
 QString StatusStrip::projectorText() const {
-  const QString missing = missingScreen();
+  const QString missing = missingScreen(session_);
   const auto projectors = static_cast<int>(session_.projectors());
   Size size = session_.projectorSize();
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");

@@ -28,7 +28,6 @@ class StatusStrip : public QFrame {
   void refresh();
   QString projectorText() const;
   void showDisk(const QString& folder);
-  QString missingScreen() const;
   bool isScreenThere() const;
   void showRoomLight();
   Session& session_;

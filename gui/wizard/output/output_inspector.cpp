@@ -14,6 +14,7 @@
 #include "wizard/devices/device_selector.h"
 #include "wizard/devices/flash_consent.h"
 #include "wizard/devices/nudge_dialog.h"
+#include "wizard/devices/on_measurement.h"
 #include "wizard/devices/perfecting_part.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/output/nights_part.h"
@@ -131,9 +132,11 @@ void showProof(Remark& remark, const OutputPage& page) {
                        "repair the calibration.")
             .arg(decimalText(*pixels, 1)));
   if (page.proof().isOutOfDate())
-    return remark.show(Remark::Kind::warning, OutputPage::tr("The photograph is out of date"),
-                       OutputPage::tr("What it was taken of has been measured or chosen anew since. Take it "
-                                      "again to prove what is shown now."));
+    return remark.show(
+        Remark::Kind::warning, OutputPage::tr("The photograph is out of date"),
+        OutputPage::tr(
+            "What it was taken of has been measured or chosen anew since, or is another set. Take it "
+            "again to prove what is shown now."));
   if (proof == nullptr)
     return remark.show(Remark::Kind::watch, OutputPage::tr("Not photographed yet"),
                        OutputPage::tr("One photograph shows whether the surface looks as predicted."));
@@ -173,6 +176,12 @@ void showProof(Remark& remark, const OutputPage& page) {
                    .arg(*differs + 1))
             .arg(decimalText(std::abs(moved.x), 1), decimalText(std::abs(moved.y), 1)),
         meaning);
+  else if (const double patch = pipeline::changedPatch(proof->figuresOf(*differs));
+           patch > pipeline::plainPatch)
+    remark.show(Remark::Kind::warning,
+                OutputPage::tr("A part of the surface looks otherwise than predicted, by ΔE %1.")
+                    .arg(decimalText(patch, 1)),
+                meaning);
   else if (page.cameras() > 1)
     remark.show(Remark::Kind::warning,
                 OutputPage::tr("Camera %1 or a projector may have moved.").arg(*differs + 1), meaning);
@@ -291,6 +300,11 @@ QWidget* proofPart(OutputPage& page) {
 /// What starts at log-in, and what installing would change.
 QString installedText(const OutputPage& page) {
   using InstalledShow = OutputPage::InstalledShow;
+  if (page.installedShow() == InstalledShow::thisVenues && isNothingToldApart(page.session()))
+    return OutputPage::tr("Installed, but the show cannot start with what was measured last.") + ' ' +
+           (page.session().hasEarlier(calibration::Stage::acquisition)
+                ? OutputPage::tr("Go on measuring, or use the earlier one, at Acquire.")
+                : OutputPage::tr("Go on measuring at Acquire."));
   switch (page.installedShow()) {
     case InstalledShow::thisVenues:
       return (page.nightAt().isValid()

@@ -218,6 +218,8 @@ QString OutputPage::hint() const {
   if (session_.isAnotherVenueShown())
     return tr("Another program plays a show of another venue on this projector.");
   if (session_.isShownElsewhere()) return tr("Another program plays a show of this venue.");
+  if (isNothingToldApart(session_))
+    return tr("What was measured is too coarse to place content. Go on measuring.");
   if (isDoubted())
     return tr("The surface did not look as predicted. Open the output: it leads to what helps.");
   if (isOnPageOnly()) return tr("This rehearsal plays on this page only: nothing is projected.");
@@ -280,14 +282,17 @@ QString OutputPage::playingHint() const {
 void OutputPage::updateCommands() {
   DevicePage::updateCommands();
   open_->show(tr("Open output"), !projectorWithoutScreen() && !playlist_.isEmpty() &&
-                                     !projection_.isOpening() && session_.areDevicesFree());
+                                     !projection_.isOpening() && session_.areDevicesFree() &&
+                                     !isNothingToldApart(session_));
   const bool isProved = proof_.next() == OutputProof::Next::install;
-  install_->show(isInstalled() ? tr("Install again")
-                 : isProved    ? tr("Install show")
-                 : isJudged()  ? tr("Install anyway")
-                               : tr("Install without proof"),
-                 isInstallable() && !playlist_.isEmpty());
-  renew_->show(tr("Show the current correction"), session_.areDevicesFree() && !projectorWithoutScreen());
+  install_->show(isJustInstalled_ ? tr("Installed")
+                 : isInstalled()  ? tr("Install again")
+                 : isProved       ? tr("Install show")
+                 : isJudged()     ? tr("Install anyway")
+                                  : tr("Install without proof"),
+                 isInstallable() && !playlist_.isEmpty() && !isJustInstalled_);
+  renew_->show(tr("Show the current correction"),
+               session_.areDevicesFree() && !projectorWithoutScreen() && !isNothingToldApart(session_));
   review_->show(tr("Look at it first"));
   endChart_->show(tr("Show the playlist"));
   hideFigures_->show(tr("Hide the figures"));
@@ -307,6 +312,7 @@ void OutputPage::updateCommands() {
 
 PageCommand* OutputPage::primary() const {
   // Beside another program's show it is possible, and not what is to be done next.
+  if (!isOpen() && isNothingToldApart(session_)) return goOnMeasuring_;
   if (!isOpen()) return session_.isShownElsewhere() ? nullptr : open_;
   if (playsEarlier()) return renew_;
   switch (proof_.next()) {
@@ -369,14 +375,15 @@ std::optional<Banner> OutputPage::banner() const {
                   isFrozen() ? tr("The frozen picture stands unseen until you show it again.")
                              : tr("The playlist runs on unseen until you show it again."),
                   endChart_};
-  if (projection_.hasOverlay())
+  if (projection_.hasOverlay() && !isBlack())
     return Banner{Banner::Kind::information, tr("Figures are on the surface"),
                   tr("Whoever is in the room reads them over the picture."), hideFigures_};
   if (const auto stopped = onMeasurement(session_, goOnMeasuring_)) return stopped;
   if (!proof_.isOutOfDate()) return std::nullopt;
   return Banner{isOpen() ? Banner::Kind::information : Banner::Kind::amber,
                 tr("The verification photograph is out of date"),
-                tr("What it was taken of has been measured or chosen anew since. Take it again to prove what "
+                tr("What it was taken of has been measured or chosen anew since, or is another set. Take it "
+                   "again to prove what "
                    "is shown now.")};
 }
 

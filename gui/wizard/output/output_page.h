@@ -84,6 +84,8 @@ class OutputPage : public DevicePage {
   /// The calibration's set in use, which plays. What plays goes on as it is until another one is prepared.
   const pipeline::TargetSets& sets() const { return session_.sets(); }
   void useSet(const std::string& name);
+  /// A night has passed in another program: what it has perfected is looked for.
+  void nightHasPassed() { perfecting_.lookAgain(); }
   /// Why no other one can be chosen now; empty: it can.
   QString whyNoSets() const;
   /// When the show changes sets: the installed one, and this one while it plays and the page is looked at, so
@@ -237,6 +239,7 @@ class OutputPage : public DevicePage {
   QString preferred_;                               // Preview's picture
   QString config_;
   InstalledShow installed_ = InstalledShow::none;
+  bool isJustInstalled_ = false;
   QTime nightAt_;
   QString reportFile_;
   bool isReportShown_ = false;

@@ -67,6 +67,13 @@ void OutputPage::install() {
     // Where systemd does not run the session, the desktop starts it.
     gui::install(QFileInfo::exists("/run/systemd/system") ? Start::service : Start::autostart, config_,
                  QCoreApplication::applicationFilePath(), showArguments());
+    // Installed again everything is as it was: the button says that it was heard.
+    isJustInstalled_ = true;
+    constexpr std::chrono::seconds said{4};
+    QTimer::singleShot(said, this, [this] {
+      isJustInstalled_ = false;
+      tellSettings();
+    });
   } catch (...) {
     tell(failureOf(std::current_exception()));
   }

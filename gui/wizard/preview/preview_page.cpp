@@ -323,7 +323,8 @@ std::optional<Banner> PreviewPage::banner() const {
   if (session_.progress(Stage::acquisition) == calibration::StageProgress::stale)
     return Banner{Banner::Kind::amber, tr("What was measured is out of date: it belongs to earlier settings"),
                   tr("It still works, and what you see follows from it, until it is measured again.")};
-  if (session_.progress(Stage::content) != calibration::StageProgress::stale)
+  // Whatever else is out of date, it cannot be brought up to date by that.
+  if (isNothingToldApart(session_) || session_.progress(Stage::content) != calibration::StageProgress::stale)
     return onMeasurement(session_, goOnMeasuring_);
   const auto isSince = [&](Stage stage) {
     return session_.result(stage) && session_.result(stage)->stored > session_.result(Stage::content)->stored;
@@ -375,7 +376,9 @@ QString PreviewPage::hint() const {
   if (isComputing()) return tr("Predicting");
   if (!preview_) return {};
   if (session_.underWay().show) return tr("Predicted from the measurement. The output stays as it is.");
-  return tr("Predicted from the measurement. Nothing is projected now.");
+  return session_.isShownElsewhere()
+             ? tr("Predicted from the measurement. Another program's show is projected.")
+             : tr("Predicted from the measurement. Nothing is projected now.");
 }
 
 void PreviewPage::updateCommands() {

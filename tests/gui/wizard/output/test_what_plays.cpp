@@ -14,6 +14,8 @@
 #include "gui/wizard/simulated_session.h"
 #include "output/default_picture.h"
 #include "output/venue_use.h"
+#include "relucent/base/file.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/json.h"
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/pipeline/calibrate.h"
@@ -109,6 +111,39 @@ class TestWhatPlays : public QObject {
     page_->removeItem(0);
     QTRY_VERIFY2(page_->figures().startsWith("still picture"), qPrintable(page_->figures()));
     QVERIFY(!page_->livePlaying());
+  }
+
+  void whatIsTooCoarseStartsNoShow_data() {
+    QTest::addColumn<int>("stoppedAt");
+    QTest::addColumn<QString>("sentence");
+    QTest::newRow("as coarse as the projector") << 64 << "before anything was told apart";
+    QTest::newRow("in blocks") << 16 << "at blocks of 16 px";
+  }
+  void whatIsTooCoarseStartsNoShow() {
+    QFETCH(int, stoppedAt);
+    QFETCH(QString, sentence);
+    session().close();
+    const std::filesystem::path manifest = own_.path("venue") / CalibrationFolder::manifestName;
+    auto json = parsedJson<Json>(readFile(manifest));
+    json.at("results").at("acquisition").back().at("values")["stopped_at"] = stoppedAt;
+    writeFileAtomically(manifest, json.dump());
+    session().open(own_.path("venue"));
+    QVERIFY(page_->banner());
+    QVERIFY2(page_->banner()->sentence.contains(sentence), qPrintable(page_->banner()->sentence));
+  }
+
+  /// Of what is black nothing is on the surface, figures neither.
+  void figuresOnTheSurfaceAreTold() {
+    openOutput();
+    const auto isTold = [this] { return page_->banner() && page_->banner()->sentence.contains("Figures"); };
+    page_->projection().setOverlay(true);
+    QVERIFY(isTold());
+    page_->setBlack(true);
+    QVERIFY(!isTold());
+    page_->setBlack(false);
+    QVERIFY(isTold());
+    page_->banner()->command->trigger();
+    QVERIFY(!isTold() && !page_->projection().hasOverlay());
   }
 
   /// An installed show, begun beside the wizard: its pictures are on the projector whatever is said here.

@@ -14,6 +14,7 @@
 
 #include "gui/wizard/simulated_session.h"
 #include "relucent/base/error.h"
+#include "wizard/session/missing_screen.h"
 
 using namespace relucent;
 using namespace relucent::gui;
@@ -176,6 +177,8 @@ class TestVenueUse : public QObject {
       QVERIFY(other && show);
       QTRY_VERIFY_WITH_TIMEOUT(venue.session.isAnotherVenueShown(), patience);
       QVERIFY(venue.session.isShownElsewhere());
+      // Nothing shines on a screen that is not there.
+      QCOMPARE(missingScreen(venue.session), QString("HDMI-7"));
       // Its own show is what is said of it where both are there.
       const auto own = VenueUse::take(venue.path("venue"), Way::show);
       QTRY_VERIFY_WITH_TIMEOUT(!venue.session.isAnotherVenueShown(), patience);

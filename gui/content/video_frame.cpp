@@ -3,6 +3,7 @@
 
 #include <QTransform>
 #include <QVideoFrameFormat>
+#include <QtEndian>
 #include <optional>
 
 #include "relucent/base/error.h"
@@ -26,6 +27,21 @@ class Mapped {
   ~Mapped() { frame_.unmap(); }
   Mapped(const Mapped&) = delete;
   Mapped& operator=(const Mapped&) = delete;
+
+  /// That a plane holds so many lines of so many bytes. Of unpacked pictures, which lie from the bottom up,
+  /// Qt's FFmpeg backend gives another format than they have, and lines of negative length: read as told,
+  /// they end outside of their memory. Throws: Error{format}.
+  void demand(int number, int lines, int bytes) const {
+    const int line = frame_.bytesPerLine(number), there = frame_.mappedBytes(number);
+    const bool isWhole = frame_.bits(number) != nullptr && line >= bytes && lines > 0 &&
+                         qint64{line} * (lines - 1) + bytes <= qint64{there};
+    if (isWhole) return;
+    throw Error(
+        ErrorKind::format,
+        RELUCENT_ENGLISH_MESSAGE("content.video-samples-astray",
+                                 "the video's samples do not lie as its format has them"),
+        RELUCENT_ENGLISH_MESSAGE("content.convert-to-h-264", "convert it to H.264 with 4:2:0 chroma"));
+  }
 
   image::VideoSamples::Plane plane(int number, int step = 1, int first = 0) const {
     return {frame_.bits(number) + first, static_cast<std::size_t>(frame_.bytesPerLine(number)), step};
@@ -64,6 +80,29 @@ std::optional<image::VideoSamples> samplesOf(const Mapped& frame, Format::PixelF
     default:
       return std::nullopt;
   }
+}
+
+/// That the frame holds what will be read of it. Throws: Error{format}.
+void demandWhole(const Mapped& mapped, const QVideoFrame& frame, const image::VideoSamples& samples,
+                 QSize size) {
+  const int sample = samples.bits > 8 ? 2 : 1, planes = frame.planeCount();
+  const auto coarse = [](int pixels, int coarser) { return (pixels + coarser - 1) / coarser; };
+  const bool isPacked = planes == 1 && samples.blue.data != nullptr;  // in groups of two pixels
+  mapped.demand(0, size.height(), isPacked ? 4 * coarse(size.width(), 2) : sample * size.width());
+  for (int chroma = 1; chroma < planes && samples.blue.data != nullptr; ++chroma)
+    mapped.demand(chroma, coarse(size.height(), samples.coarserY),
+                  (planes == 2 ? 2 : 1) * sample * coarse(size.width(), samples.coarserX));
+}
+
+/// Of formats that QImage has in the opposite order of bytes alone: as these.
+QImage reversed(const Mapped& mapped, QSize size) {
+  mapped.demand(0, size.height(), 4 * size.width());
+  const image::VideoSamples::Plane plane = mapped.plane(0);
+  QImage picture(size, QImage::Format_RGBX8888);
+  for (int y = 0; y < size.height(); ++y)
+    qbswap<4>(static_cast<const uchar*>(plane.data) + static_cast<std::size_t>(y) * plane.bytesPerLine,
+              size.width(), picture.scanLine(y));
+  return picture;
 }
 
 /// As it is to be seen: telephones turn films by a note in the file.
@@ -123,6 +162,8 @@ QImage pictureOf(const QVideoFrame& frame, bool jpeg) {
   QVideoFrameFormat format = frame.surfaceFormat();
   QSize size = format.frameSize();
   std::optional<image::VideoSamples> samples = samplesOf(mapped, format.pixelFormat());
+  if (format.pixelFormat() == Format::Format_XBGR8888 || format.pixelFormat() == Format::Format_ABGR8888)
+    return upright(reversed(mapped, size), frame);
   if (!samples) {
     QImage::Format known = Format::imageFormatFromPixelFormat(format.pixelFormat());
     if (known == QImage::Format_Invalid)
@@ -132,12 +173,14 @@ QImage pictureOf(const QVideoFrame& frame, bool jpeg) {
                                    "the video's samples are of an unknown kind ({})")
               .with(Format::pixelFormatToString(format.pixelFormat()).toStdString()),
           RELUCENT_ENGLISH_MESSAGE("content.convert-to-h-264", "convert it to H.264 with 4:2:0 chroma"));
+    mapped.demand(0, size.height(), size.width() * QImage::toPixelFormat(known).bitsPerPixel() / 8);
     image::VideoSamples::Plane plane = mapped.plane(0);
     QImage there(static_cast<const uchar*>(plane.data), size.width(), size.height(),
                  static_cast<qsizetype>(plane.bytesPerLine), known);
     // A copy: the frame's memory goes with it.
     return upright(there.convertToFormat(QImage::Format_RGBX8888).copy(), frame);
   }
+  demandWhole(mapped, frame, *samples, size);
   QImage picture(size, QImage::Format_RGBX8888);
   image::srgbFromVideo(*samples, {size.width(), size.height()}, encodingOf(format, jpeg), picture.bits(),
                        static_cast<std::size_t>(picture.bytesPerLine()));

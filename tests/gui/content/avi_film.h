@@ -18,6 +18,8 @@ struct AviFilm {
   /// Y, Cb, Cr of a frame at a place; for JPEG see `jpeg`.
   std::function<std::array<int, 3>(int frame, int x, int y)> samples;
   std::function<QImage(int frame)> jpeg;  // if set, instead
+  /// If set, instead: three bytes a pixel, lines from the bottom up.
+  std::function<QRgb(int frame, int x, int y)> unpacked;
 };
 
 inline QByteArray littleEndian(quint32 value, int bytes = 4) {
@@ -38,6 +40,18 @@ inline QByteArray frameOf(const AviFilm& film, int frame) {
     film.jpeg(frame).save(&buffer, "JPEG", 100);
     return packed;
   }
+  if (film.unpacked) {
+    QByteArray lines;
+    for (int y = film.height; y-- > 0;) {
+      for (int x = 0; x < film.width; ++x) {
+        const QRgb colour = film.unpacked(frame, x, y);
+        for (int value : {qBlue(colour), qGreen(colour), qRed(colour)})
+          lines.append(static_cast<char>(value));
+      }
+      lines.append(QByteArray((4 - 3 * film.width % 4) % 4, 0));
+    }
+    return lines;
+  }
   QByteArray planes;
   for (int y = 0; y < film.height; ++y)
     for (int x = 0; x < film.width; ++x) planes.append(static_cast<char>(film.samples(frame, x, y)[0]));
@@ -50,17 +64,17 @@ inline QByteArray frameOf(const AviFilm& film, int frame) {
 inline QByteArray aviOf(const AviFilm& film) {
   constexpr quint32 soundRate = 8000;
   auto number = [](int value) { return littleEndian(static_cast<quint32>(value)); };
-  QByteArray packing = film.jpeg ? "MJPG" : "I420";
+  QByteArray packing = film.jpeg ? "MJPG" : film.unpacked ? QByteArray(4, 0) : "I420";
   QByteArray size = number(film.width) + number(film.height);
   QByteArray main = number(1'000'000 / film.rate) + number(0) + number(0) + number(0x10) +
                     number(film.frames) + number(0) + number(film.sound ? 2 : 1) + number(0) + size +
                     QByteArray(16, 0);
-  QByteArray pictures =
-      chunk("strh", "vids" + packing + number(0) + number(0) + number(0) + number(1) + number(film.rate) +
-                        number(0) + number(film.frames) + number(0) + number(-1) + number(0) +
-                        QByteArray(8, 0)) +
-      chunk("strf", number(40) + size + littleEndian(1, 2) + littleEndian(film.jpeg ? 24 : 12, 2) + packing +
-                        number(film.width * film.height * 3 / 2) + QByteArray(16, 0));
+  QByteArray pictures = chunk("strh", "vids" + packing + number(0) + number(0) + number(0) + number(1) +
+                                          number(film.rate) + number(0) + number(film.frames) + number(0) +
+                                          number(-1) + number(0) + QByteArray(8, 0)) +
+                        chunk("strf", number(40) + size + littleEndian(1, 2) +
+                                          littleEndian(film.jpeg || film.unpacked ? 24 : 12, 2) + packing +
+                                          number(film.width * film.height * 3 / 2) + QByteArray(16, 0));
   QByteArray sound = chunk("strh", "auds" + QByteArray(4, 0) + number(0) + number(0) + number(0) + number(1) +
                                        littleEndian(soundRate) + number(0) +
                                        littleEndian(soundRate * static_cast<quint32>(film.frames) /

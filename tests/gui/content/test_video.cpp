@@ -107,6 +107,36 @@ class TestVideo : public QObject {
              qPrintable(QString::number(seen, 16)));
   }
 
+  /// Unpacked pictures lie from the bottom up. Law: they are shown as they are, or refused in a sentence, and
+  /// never read beyond their memory.
+  void unpackedPicturesAreRightOrRefused_data() {
+    QTest::addColumn<int>("width");
+    for (int width : {32, 33, 128}) QTest::addRow("%d wide", width) << width;
+  }
+  void unpackedPicturesAreRightOrRefused() {
+    QFETCH(int, width);
+    AviFilm made;
+    made.width = width;
+    made.unpacked = [&](int, int, int y) {
+      return y < made.height / 2 ? qRgb(200, 120, 40) : qRgb(20, 60, 180);
+    };
+    const QString file = film(made);
+    try {
+      Video video(file, canvasOf(made));
+      const QImage shown = video.at(0s).image;
+      for (const auto& [y, wanted] :
+           {std::pair(2, qRgb(200, 120, 40)), std::pair(made.height - 3, qRgb(20, 60, 180))}) {
+        const QRgb seen = shown.pixel(width / 2, y);
+        QVERIFY2(std::abs(qRed(seen) - qRed(wanted)) <= 3 && std::abs(qGreen(seen) - qGreen(wanted)) <= 3 &&
+                     std::abs(qBlue(seen) - qBlue(wanted)) <= 3,
+                 qPrintable(QString::number(seen, 16)));
+      }
+    } catch (const Error& error) {
+      QVERIFY(error.kind() == ErrorKind::format);
+      QVERIFY2(QString(error.what()).contains("do not lie as"), error.what());
+    }
+  }
+
   void tellsItsLength() {
     AviFilm made = counting();
     Video video(film(made), canvasOf(made));

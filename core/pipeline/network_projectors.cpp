@@ -152,7 +152,7 @@ std::vector<Message> problems(const NetworkProjectors& projectors, const RigSett
 
 NetworkProjectors networkProjectorsOf(const calibration::CalibrationFolder& folder) {
   NetworkProjectors projectors;
-  const calibration::Json settings = folder.settings();
+  const calibration::Json& settings = folder.settings();
   if (!settings.contains(section)) return projectors;
   try {
     const calibration::Json& kept = settings.at(section);

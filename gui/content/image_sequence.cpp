@@ -72,7 +72,7 @@ QStringList picturesIn(const QString& folder) {
                 RELUCENT_MESSAGE("content.choose-picture-folder",
                                  "choose a folder with PNG, JPEG, TIFF or EXR files"),
                 folder.toStdString());
-  QCollator byNumber(QLocale(QLocale::English));
+  QCollator byNumber{QLocale(QLocale::English)};
   byNumber.setNumericMode(true);
   std::sort(names.begin(), names.end(), byNumber);
   QStringList files;

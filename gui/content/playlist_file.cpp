@@ -75,7 +75,7 @@ PlaylistSettings readPlaylist(const QString& file) {
   PlaylistSettings settings;
   settings.loop = object["loop"].toBool(settings.loop);
   settings.fadeSeconds = object["fade_seconds"].toDouble(settings.fadeSeconds);
-  for (const QJsonValue& value : object["items"].toArray()) {
+  for (const auto& value : object["items"].toArray()) {
     QJsonObject entry = value.toObject();
     PlaylistItem item;
     if (QString path = entry["path"].toString(); !path.isEmpty())
@@ -85,7 +85,7 @@ PlaylistSettings readPlaylist(const QString& file) {
     item.set = entry["set"].toString();
     settings.items.append(item);
   }
-  for (const QJsonValue& value : object["sets"].toArray()) {
+  for (const auto& value : object["sets"].toArray()) {
     const QJsonObject entry = value.toObject();
     settings.sets.append(
         {QTime::fromString(entry["from"].toString(), setTimeFormat), entry["set"].toString()});

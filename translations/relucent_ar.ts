@@ -7287,6 +7287,14 @@ projector %2</source>
         <source>Installed</source>
         <translation>تم التثبيت</translation>
     </message>
+    <message>
+        <source>Not all was decided on what is measured now</source>
+        <translation>لم يُقرَّر كل شيء على ما قيس الآن</translation>
+    </message>
+    <message>
+        <source>Steps that are out of date count with what was chosen there before.</source>
+        <translation>الخطوات القديمة تُحتسب بما اختير فيها من قبل.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

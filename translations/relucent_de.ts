@@ -7143,6 +7143,14 @@ Projektor %2</translation>
         <source>Installed</source>
         <translation>Installiert</translation>
     </message>
+    <message>
+        <source>Not all was decided on what is measured now</source>
+        <translation>Nicht alles wurde anhand der jetzigen Messung entschieden</translation>
+    </message>
+    <message>
+        <source>Steps that are out of date count with what was chosen there before.</source>
+        <translation>Veraltete Schritte gelten so, wie sie zuvor gewählt wurden.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -7143,6 +7143,14 @@ proyector %2</translation>
         <source>Installed</source>
         <translation>Instalado</translation>
     </message>
+    <message>
+        <source>Not all was decided on what is measured now</source>
+        <translation>No todo se decidió con lo medido ahora</translation>
+    </message>
+    <message>
+        <source>Steps that are out of date count with what was chosen there before.</source>
+        <translation>Los pasos desactualizados cuentan con lo que se eligió antes en ellos.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

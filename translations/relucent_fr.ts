@@ -7143,6 +7143,14 @@ projecteur %2</translation>
         <source>Installed</source>
         <translation>Installée</translation>
     </message>
+    <message>
+        <source>Not all was decided on what is measured now</source>
+        <translation>Tout n’a pas été décidé d’après la mesure actuelle</translation>
+    </message>
+    <message>
+        <source>Steps that are out of date count with what was chosen there before.</source>
+        <translation>Les étapes périmées comptent avec ce qui y avait été choisi.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -7143,6 +7143,14 @@ proiettore %2</translation>
         <source>Installed</source>
         <translation>Installato</translation>
     </message>
+    <message>
+        <source>Not all was decided on what is measured now</source>
+        <translation>Non tutto è stato deciso sulla misura attuale</translation>
+    </message>
+    <message>
+        <source>Steps that are out of date count with what was chosen there before.</source>
+        <translation>I passi non aggiornati valgono come scelti prima.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -7107,6 +7107,14 @@ projector %2</source>
         <source>Installed</source>
         <translation>インストール済み</translation>
     </message>
+    <message>
+        <source>Not all was decided on what is measured now</source>
+        <translation>一部の設定は今の測定に基づいていません</translation>
+    </message>
+    <message>
+        <source>Steps that are out of date count with what was chosen there before.</source>
+        <translation>古くなった手順には、以前そこで選んだ内容が使われます。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -7107,6 +7107,14 @@ projector %2</source>
         <source>Installed</source>
         <translation>已安装</translation>
     </message>
+    <message>
+        <source>Not all was decided on what is measured now</source>
+        <translation>并非所有选择都基于当前的测量</translation>
+    </message>
+    <message>
+        <source>Steps that are out of date count with what was chosen there before.</source>
+        <translation>已过期的步骤按之前在那里选择的内容计算。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

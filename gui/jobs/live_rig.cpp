@@ -192,6 +192,11 @@ std::array<std::map<double, double>, 3> LiveRig::ramps(std::size_t projector) co
   return ramps_.curves(projector);
 }
 
+void LiveRig::forgetRamps() {
+  QMutexLocker lock(&guard_);
+  ramps_ = {};
+}
+
 void LiveRig::pause() {
   QMutexLocker lock(&guard_);
   paused_ = true;

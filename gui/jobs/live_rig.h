@@ -77,6 +77,8 @@ class LiveRig : public QObject, public rig::RigWatcher {
   int floodlightNumber(std::size_t camera = 0) const;
   /// As the first camera's photographs show them.
   std::array<std::map<double, double>, 3> ramps(std::size_t projector = 0) const;
+  /// They are measured anew: what photographs from before show is of another time.
+  void forgetRamps();
 
   /// Pauses before the next pattern; the projectors show black meanwhile.
   void pause();

@@ -220,6 +220,7 @@ void LinearizePage::measure(bool again) {
   lease_ = session_.leaseDevices(stepName, DeviceWork::measurement, [this] { finish(); });
   undoStack().clear();  // what is measured with is not taken back by the way
   begunAt_ = photographsOf(session_);
+  session_.live().forgetRamps();
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again, room = &room_](Progress& progress) {
     room->countPauses([live = work.devices->sharedLive()] { return live->paused(); });

@@ -379,12 +379,17 @@ std::optional<Banner> OutputPage::banner() const {
     return Banner{Banner::Kind::information, tr("Figures are on the surface"),
                   tr("Whoever is in the room reads them over the picture."), hideFigures_};
   if (const auto stopped = onMeasurement(session_, goOnMeasuring_)) return stopped;
-  if (!proof_.isOutOfDate()) return std::nullopt;
-  return Banner{isOpen() ? Banner::Kind::information : Banner::Kind::amber,
-                tr("The verification photograph is out of date"),
-                tr("What it was taken of has been measured or chosen anew since, or is another set. Take it "
-                   "again to prove what "
-                   "is shown now.")};
+  if (proof_.isOutOfDate())
+    return Banner{
+        isOpen() ? Banner::Kind::information : Banner::Kind::amber,
+        tr("The verification photograph is out of date"),
+        tr("What it was taken of has been measured or chosen anew since, or is another set. Take it "
+           "again to prove what "
+           "is shown now.")};
+  if (isOpen() && !stepToReview().isEmpty())
+    return Banner{Banner::Kind::information, tr("Not all was decided on what is measured now"),
+                  tr("Steps that are out of date count with what was chosen there before."), review_};
+  return std::nullopt;
 }
 
 /// The first one whose decision was made on something else; empty: none.

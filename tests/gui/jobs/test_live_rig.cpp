@@ -257,6 +257,8 @@ class TestLiveRig : public QObject {
     QVERIFY(std::abs(live.ramps(1)[0].at(0.75) - 0.75) < 1e-5);
     QCOMPARE(live.ramps(0)[0].at(1.0), 1.0);
     QVERIFY(live.ramps(2)[0].empty());
+    live.forgetRamps();
+    QVERIFY(live.ramps(0)[0].empty() && live.ramps(1)[0].empty());
   }
 };
 

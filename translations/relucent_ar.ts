@@ -5653,6 +5653,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>أكّد أن القاعة خالية: الأنماط تومض.</translation>
     </message>
+    <message>
+        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
+        <translation>يختلف الأبيض بمقدار %1 عن ألوانه، أكثر مما يُحدثه أي وضع صورة: الصور تناقض بعضها.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -6477,8 +6481,8 @@ projector %2</source>
         <translation>العرض مثبَّت</translation>
     </message>
     <message>
-        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>ثُبّت: يبدأ العرض عند تسجيل الدخول التالي. اضغط A مطوّلاً للمقارنة.</translation>
+        <source>Installed at %1: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>ثُبّت في %1: يبدأ العرض عند تسجيل الدخول التالي. اضغط A مطوّلاً للمقارنة.</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
@@ -7282,10 +7286,6 @@ projector %2</source>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>ما قيس أخشن من أن يُوضع عليه محتوى. تابع القياس.</translation>
-    </message>
-    <message>
-        <source>Installed</source>
-        <translation>تم التثبيت</translation>
     </message>
     <message>
         <source>Not all was decided on what is measured now</source>

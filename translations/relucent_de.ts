@@ -5525,6 +5525,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>Bestätigen Sie, dass der Raum geräumt ist: Die Muster blitzen.</translation>
     </message>
+    <message>
+        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
+        <translation>Weiß weicht um %1 von seinen Farben ab, mehr als jeder Bildmodus bewirkt: Die Fotos widersprechen einander.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -6337,8 +6341,8 @@ Projektor %2</translation>
         <translation>Show installiert</translation>
     </message>
     <message>
-        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>Installiert: Die Show beginnt bei der nächsten Anmeldung. Halten Sie A zum Vergleichen.</translation>
+        <source>Installed at %1: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>Um %1 installiert: Die Show beginnt bei der nächsten Anmeldung. Halten Sie A zum Vergleichen.</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
@@ -7138,10 +7142,6 @@ Projektor %2</translation>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>Was gemessen wurde, ist zu grob, um Inhalte zu platzieren. Messen Sie weiter.</translation>
-    </message>
-    <message>
-        <source>Installed</source>
-        <translation>Installiert</translation>
     </message>
     <message>
         <source>Not all was decided on what is measured now</source>

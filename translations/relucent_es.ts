@@ -5525,6 +5525,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>Confirme que la sala está despejada: los patrones destellan.</translation>
     </message>
+    <message>
+        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
+        <translation>El blanco difiere en %1 de sus colores, más de lo que causa cualquier modo de imagen: las fotos se contradicen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -6337,8 +6341,8 @@ proyector %2</translation>
         <translation>Show instalado</translation>
     </message>
     <message>
-        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>Instalado: el show empieza en el próximo inicio de sesión. Mantenga A para comparar.</translation>
+        <source>Installed at %1: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>Instalado a las %1: el show empieza en el próximo inicio de sesión. Mantenga A para comparar.</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
@@ -7138,10 +7142,6 @@ proyector %2</translation>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>Lo medido es demasiado basto para colocar contenido. Siga midiendo.</translation>
-    </message>
-    <message>
-        <source>Installed</source>
-        <translation>Instalado</translation>
     </message>
     <message>
         <source>Not all was decided on what is measured now</source>

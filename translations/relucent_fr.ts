@@ -5525,6 +5525,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>Confirmez que la salle est évacuée : les motifs clignotent.</translation>
     </message>
+    <message>
+        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
+        <translation>Le blanc diffère de %1 de ses couleurs, plus que ne le fait aucun mode d’image : les photos se contredisent.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -6337,8 +6341,8 @@ projecteur %2</translation>
         <translation>Diffusion installée</translation>
     </message>
     <message>
-        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>Installé&#x202f;: la diffusion démarre à la prochaine connexion. Maintenez A pour comparer.</translation>
+        <source>Installed at %1: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>Installé à %1&#x202f;: la diffusion démarre à la prochaine connexion. Maintenez A pour comparer.</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
@@ -7138,10 +7142,6 @@ projecteur %2</translation>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>La mesure est trop grossière pour placer un contenu. Continuez la mesure.</translation>
-    </message>
-    <message>
-        <source>Installed</source>
-        <translation>Installée</translation>
     </message>
     <message>
         <source>Not all was decided on what is measured now</source>

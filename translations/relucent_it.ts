@@ -5525,6 +5525,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>Confermare che la sala è sgombra: i pattern lampeggiano.</translation>
     </message>
+    <message>
+        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
+        <translation>Il bianco differisce del %1 dai suoi colori, più di quanto faccia qualsiasi modalità d’immagine: le foto si contraddicono.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -6337,8 +6341,8 @@ proiettore %2</translation>
         <translation>Show installato</translation>
     </message>
     <message>
-        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>Installato: lo show parte al prossimo accesso. Tenere premuto A per confrontare.</translation>
+        <source>Installed at %1: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>Installato alle %1: lo show parte al prossimo accesso. Tenere premuto A per confrontare.</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
@@ -7138,10 +7142,6 @@ proiettore %2</translation>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>Ciò che è misurato è troppo grossolano per collocare contenuti. Continuare la misura.</translation>
-    </message>
-    <message>
-        <source>Installed</source>
-        <translation>Installato</translation>
     </message>
     <message>
         <source>Not all was decided on what is measured now</source>

@@ -5493,6 +5493,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>退避が完了したことを確認してください。パターンは点滅します。</translation>
     </message>
+    <message>
+        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
+        <translation>白が各色の合計と %1 ずれています。画質モードで生じる範囲を超えており、撮影結果が矛盾しています。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -6302,8 +6306,8 @@ projector %2</source>
         <translation>ショーを登録済み</translation>
     </message>
     <message>
-        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>登録済み: 次回ログイン時にショーが始まります。A を押し続けると比較できます。</translation>
+        <source>Installed at %1: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>%1 に登録済み: 次回ログイン時にショーが始まります。A を押し続けると比較できます。</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
@@ -7102,10 +7106,6 @@ projector %2</source>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>測定が粗すぎて、コンテンツを配置できません。測定を続けてください。</translation>
-    </message>
-    <message>
-        <source>Installed</source>
-        <translation>インストール済み</translation>
     </message>
     <message>
         <source>Not all was decided on what is measured now</source>

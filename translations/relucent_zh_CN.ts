@@ -5493,6 +5493,10 @@
         <source>Confirm that the room is clear: the patterns flash.</source>
         <translation>请确认已清场：图案会闪烁。</translation>
     </message>
+    <message>
+        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
+        <translation>白色与各颜色之和相差 %1，超出任何画面模式的影响：照片相互矛盾。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -6302,8 +6306,8 @@ projector %2</source>
         <translation>节目已安装</translation>
     </message>
     <message>
-        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>已安装：下次登录时开始播放。按住 A 可比较。</translation>
+        <source>Installed at %1: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>已于 %1 安装：下次登录时开始播放。按住 A 可比较。</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
@@ -7102,10 +7106,6 @@ projector %2</source>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>测量过于粗略，无法放置内容。请继续测量。</translation>
-    </message>
-    <message>
-        <source>Installed</source>
-        <translation>已安装</translation>
     </message>
     <message>
         <source>Not all was decided on what is measured now</source>

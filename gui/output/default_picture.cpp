@@ -16,8 +16,7 @@ QString defaultPicture() {
 }
 
 std::filesystem::path pathOfPicture(const QString& picture, const std::filesystem::path& folder) {
-  return picture.startsWith(':') ? folder / "Demonstration picture.png"
-                                 : std::filesystem::path(picture.toStdString());
+  return picture.startsWith(':') ? folder / demonstrationCopy : std::filesystem::path(picture.toStdString());
 }
 
 std::filesystem::path pictureFile(const QString& picture, const std::filesystem::path& folder) {

@@ -144,6 +144,10 @@ bool isInstalled(Start start, const QString& config) {
   return QFileInfo::exists(fileOf(start, config));
 }
 
+QDateTime installedAt(Start start, const QString& config) {
+  return QFileInfo(fileOf(start, config)).lastModified();
+}
+
 bool isInstalled(Start start, const QString& config, const QString& argument) {
   QFile file(fileOf(start, config));
   if (!file.open(QIODevice::ReadOnly)) return false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QDateTime>
 #include <QString>
 #include <QStringList>
 
@@ -27,6 +28,8 @@ QString install(Start start, const QString& config, const QString& program, cons
 
 /// Whether one is installed, for any venue.
 bool isInstalled(Start start, const QString& config);
+/// When it was; invalid: it is not.
+QDateTime installedAt(Start start, const QString& config);
 /// Whether one is installed with this argument, the folder of a venue.
 bool isInstalled(Start start, const QString& config, const QString& argument);
 

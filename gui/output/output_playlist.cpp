@@ -16,13 +16,6 @@ namespace {
 
 constexpr const char* demonstration = "demonstration.png";  // the copy that a calibration keeps
 
-/// The program's own picture, or the copy of it.
-bool isDemonstration(const QString& path) {
-  const QFileInfo file(path);
-  return path == defaultPicture() ||
-         (file.fileName() == demonstration && file.size() == QFileInfo(defaultPicture()).size());
-}
-
 QString picturePath(const QString& picture) {
   return picture.isEmpty() ? defaultPicture() : picture;
 }
@@ -95,6 +88,13 @@ void OutputPlaylist::save() const {
     item.path = copy;
   }
   savePlaylist(file(), kept);
+}
+
+bool OutputPlaylist::isDemonstration(const QString& path) {
+  const QFileInfo file(path);
+  return path == defaultPicture() ||
+         ((file.fileName() == demonstration || file.fileName() == demonstrationCopy) &&
+          file.size() == QFileInfo(defaultPicture()).size());
 }
 
 QString OutputPlaylist::nameOf(const QString& path) {

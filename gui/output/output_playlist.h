@@ -43,6 +43,8 @@ class OutputPlaylist : public QObject {
 
   /// The name of an item's file, or what else it is, for people.
   static QString nameOf(const QString& path);
+  /// The program's own picture, or a copy of it.
+  static bool isDemonstration(const QString& path);
   /// A picture that stands, which can be photographed and compared.
   static bool isStill(const PlaylistItem& item);
   /// It stands for its own seconds, as pictures and what is live do; a film plays to its end.

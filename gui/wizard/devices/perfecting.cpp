@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "output/default_picture.h"
+#include "output/output_playlist.h"
 #include "relucent/base/error.h"
 
 namespace relucent::gui {
@@ -82,8 +83,12 @@ void Perfecting::look() {
     if (known.picture) return known;
     const std::string file = pathOfPicture(picture, pipeline::perfectedFolder(folder)).string();
     known.wasBefore =
-        std::ranges::any_of(pipeline::allPerfected(folder),
-                            [&](const pipeline::PerfectedPicture& kept) { return kept.picture == file; });
+        std::ranges::any_of(pipeline::allPerfected(folder), [&](const pipeline::PerfectedPicture& kept) {
+          // The program's own picture lies in several places.
+          return kept.picture == file ||
+                 (OutputPlaylist::isDemonstration(QString::fromStdString(kept.picture)) &&
+                  OutputPlaylist::isDemonstration(picture));
+        });
     return known;
   });
 }

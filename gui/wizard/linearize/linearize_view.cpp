@@ -284,11 +284,15 @@ QWidget* inspectorOf(LinearizePage& model) {
           Kind::good, LinearizePage::tr("The colours add up"),
           LinearizePage::tr("Red, green and blue together give white within %1.").arg(percentText(worst)));
     else
-      adds->show(
-          Kind::warning, LinearizePage::tr("The colours do not add up"),
-          LinearizePage::tr("White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the "
-                            "projector's menu, then measure again.")
-              .arg(percentText(worst)));
+      adds->show(Kind::warning, LinearizePage::tr("The colours do not add up"),
+                 (model.isSpoilt()
+                      ? LinearizePage::tr(
+                            "White differs by %1 from its colours, more than any picture mode makes: the "
+                            "photographs contradict each other.")
+                      : LinearizePage::tr(
+                            "White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the "
+                            "projector's menu, then measure again."))
+                     .arg(percentText(worst)));
     bool identity =
         model.camera() < result.cameras.size() && result.cameras[model.camera()].response[1].isIdentity();
     linear->show(Kind::good,

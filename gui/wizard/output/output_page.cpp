@@ -275,7 +275,9 @@ QString OutputPage::playingHint() const {
   if (isFrozen()) return tr("Frozen: this picture stands until you press Play.");
   if (!isInstallable())
     return tr("Rehearsed to the end. A simulated venue is not installed. Hold A to compare.");
-  return isInstalled() ? tr("Installed: the show starts at the next log-in. Hold A to compare.")
+  // Installed again it says when, and is heard.
+  return isInstalled() ? tr("Installed at %1: the show starts at the next log-in. Hold A to compare.")
+                             .arg(QLocale().toString(installedAt_.time(), QLocale::ShortFormat))
                        : tr("Playing. Hold A to compare.");
 }
 
@@ -285,12 +287,11 @@ void OutputPage::updateCommands() {
                                      !projection_.isOpening() && session_.areDevicesFree() &&
                                      !isNothingToldApart(session_));
   const bool isProved = proof_.next() == OutputProof::Next::install;
-  install_->show(isJustInstalled_ ? tr("Installed")
-                 : isInstalled()  ? tr("Install again")
-                 : isProved       ? tr("Install show")
-                 : isJudged()     ? tr("Install anyway")
-                                  : tr("Install without proof"),
-                 isInstallable() && !playlist_.isEmpty() && !isJustInstalled_);
+  install_->show(isInstalled() ? tr("Install again")
+                 : isProved    ? tr("Install show")
+                 : isJudged()  ? tr("Install anyway")
+                               : tr("Install without proof"),
+                 isInstallable() && !playlist_.isEmpty());
   renew_->show(tr("Show the current correction"),
                session_.areDevicesFree() && !projectorWithoutScreen() && !isNothingToldApart(session_));
   review_->show(tr("Look at it first"));

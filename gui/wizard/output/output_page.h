@@ -239,7 +239,7 @@ class OutputPage : public DevicePage {
   QString preferred_;                               // Preview's picture
   QString config_;
   InstalledShow installed_ = InstalledShow::none;
-  bool isJustInstalled_ = false;
+  QDateTime installedAt_;  // this venue's
   QTime nightAt_;
   QString reportFile_;
   bool isReportShown_ = false;

@@ -26,6 +26,7 @@ void OutputPage::detectInstalledShow() {
   for (Start start : {Start::service, Start::autostart}) {
     if (session_.isOpen() && gui::isInstalled(start, config_, venue)) {
       installed_ = InstalledShow::thisVenues;
+      installedAt_ = installedAt(start, config_);
       nightAt_ = QTime::fromString(installedValue(start, config_, "--night"), nightFormat);
     } else if (installed_ == InstalledShow::none && gui::isInstalled(start, config_)) {
       installed_ = InstalledShow::anotherVenues;
@@ -67,13 +68,6 @@ void OutputPage::install() {
     // Where systemd does not run the session, the desktop starts it.
     gui::install(QFileInfo::exists("/run/systemd/system") ? Start::service : Start::autostart, config_,
                  QCoreApplication::applicationFilePath(), showArguments());
-    // Installed again everything is as it was: the button says that it was heard.
-    isJustInstalled_ = true;
-    constexpr std::chrono::seconds said{4};
-    QTimer::singleShot(said, this, [this] {
-      isJustInstalled_ = false;
-      tellSettings();
-    });
   } catch (...) {
     tell(failureOf(std::current_exception()));
   }

@@ -117,8 +117,11 @@ const pipeline::DriftRecord* OutputProof::newestDrift() const {
   if (!drift_) return nullptr;
   const QDateTime checked = QDateTime::fromString(QString::fromStdString(drift_->checked), Qt::ISODate);
   // Than a photograph of this measurement: one of a repair from which somebody went back says nothing of it.
-  const bool isOlder =
-      proof_ && !isOutOfDate() && checked.toSecsSinceEpoch() < proof_->taken.toSecsSinceEpoch();
+  // What looked as predicted then stands where it stood, whatever is shown since, another set or other
+  // content.
+  const bool isOfThis = proof_ && proof_->measured == measurementOf(session_);
+  const bool isOlder = isOfThis && (!isOutOfDate() || proof_->isAsPredicted()) &&
+                       checked.toSecsSinceEpoch() < proof_->taken.toSecsSinceEpoch();
   return isOlder ? nullptr : &*drift_;
 }
 

@@ -7,8 +7,8 @@
 
 namespace relucent::gui {
 
-/// The connector of the first projector whose screen is not there, whether or not anybody waits for it; empty: all
-/// are.
+/// The connector of the first projector whose screen is not there, whether or not anybody waits for it;
+/// empty: all are.
 QString missingScreen(const Session& session);
 
 }  // namespace relucent::gui

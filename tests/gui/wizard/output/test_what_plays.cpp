@@ -506,6 +506,27 @@ class TestWhatPlays : public QObject {
     QTRY_VERIFY(says("Nothing is projected"));
   }
 
+  /// Law: a photograph that was as predicted settles an earlier check, for another set and other content,
+  /// too: where camera and projector stand is not theirs.
+  void whatWasProvedSettlesAnEarlierCheck() {
+    becomes([](venue::Changes& changes) { changes.painted.push_back({{0.45, 0.5}, 0.3}); });
+    openOutput();
+    page_->checkDrift();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().newestDrift() != nullptr && isIdle(), patience);
+    QCOMPARE(page_->proof().next(), OutputProof::Next::repair);
+    const qint64 checked = QDateTime::currentSecsSinceEpoch();
+    QTRY_VERIFY(QDateTime::currentSecsSinceEpoch() > checked + 1);  // they are told apart by seconds
+    page_->close();
+    becomes([](venue::Changes& changes) { changes.painted.clear(); });
+    openOutput();
+    page_->verify();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().proof() && isIdle(), patience);
+    QVERIFY(page_->proof().proof()->isAsPredicted() && page_->proof().newestDrift() == nullptr);
+    change([](pipeline::CalibrateSettings& settings) { settings.content.reachablePercentile = 40.0; });
+    QVERIFY(page_->proof().isOutOfDate() && page_->proof().newestDrift() == nullptr);
+    QCOMPARE(page_->proof().next(), OutputProof::Next::photograph);
+  }
+
   /// Law: a photograph from before a check that found a change is no praise beside it, and both say when they
   /// were taken.
   void whatWasProvedBeforeIsMarked() {

@@ -30,20 +30,22 @@ class TestJson : public QObject {
   void proveDocument() {
     ProveResult result;
     result.method = Method::refined;
-    result.before = {{20.0, 8.0}, {19.5, 8.5}, 0.25};
-    result.after = {{30.0, 2.0}, {29.5, 2.5}, 0.125};
+    result.before = {{20.0, 8.0}, {19.5, 8.5}, 0.25, 1.5};
+    result.after = {{30.0, 2.0}, {29.5, 2.5}, 0.125, 3.0};
     result.reachable = 0.75;
     result.moved = {0.5, -1.25, 0.125, true};
     result.exposures = 8;
     result.seconds = 2.0;
     result.files = {"out/comparison.png"};
-    QCOMPARE(toJson(result).dump(),
-             std::string(R"({"method":"refined","before":{"psnr_predicted":20.0,"psnr_measured":19.5,)"
-                         R"("delta_e_predicted":8.0,"delta_e_measured":8.5,"surprise":0.25},"after":)"
-                         R"({"psnr_predicted":30.0,"psnr_measured":29.5,"delta_e_predicted":2.0,)"
-                         R"("delta_e_measured":2.5,"surprise":0.125},"reachable":0.75,)"
-                         R"("moved":{"x":0.5,"y":-1.25,"degrees":0.125,"explains":true},"exposures":8,)"
-                         R"("seconds":2.0,"files":["out/comparison.png"]})"));
+    QCOMPARE(
+        toJson(result).dump(),
+        std::string(
+            R"({"method":"refined","before":{"psnr_predicted":20.0,"psnr_measured":19.5,)"
+            R"("delta_e_predicted":8.0,"delta_e_measured":8.5,"surprise":0.25,"worst_patch":1.5},"after":)"
+            R"({"psnr_predicted":30.0,"psnr_measured":29.5,"delta_e_predicted":2.0,)"
+            R"("delta_e_measured":2.5,"surprise":0.125,"worst_patch":3.0},"reachable":0.75,)"
+            R"("moved":{"x":0.5,"y":-1.25,"degrees":0.125,"explains":true},"exposures":8,)"
+            R"("seconds":2.0,"files":["out/comparison.png"]})"));
   }
 
   void verifyDocument() {

@@ -195,8 +195,15 @@ bool LinearizePage::addsUp() const {
 
 /// Projectors with a white segment add as much light to white again as their colours have, hardly more.
 bool LinearizePage::isSpoilt() const {
-  constexpr double most = 1.5;
-  return worstAdditivity() > most;
+  // Of what a white segment adds, and of full light between a level and its curve, where a hundredth is
+  // usual.
+  constexpr double most = 1.5, farOff = 0.2;
+  const auto isFarOff = [](const linearization::ProjectorResponse& response) {
+    return std::ranges::any_of(response.residuals, [](const auto& channel) {
+      return std::ranges::any_of(channel, [](const auto& level) { return std::abs(level.light) > farOff; });
+    });
+  };
+  return worstAdditivity() > most || (result_ && std::ranges::any_of(result_->projectors, isFarOff));
 }
 
 void LinearizePage::setLevels(int levels) {

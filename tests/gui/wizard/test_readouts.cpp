@@ -120,6 +120,7 @@ class TestReadouts : public QObject {
     QTest::newRow("they do") << 0.003 << StepState::done << true;
     QTest::newRow("a white segment") << 0.8 << StepState::doubtful << true;
     QTest::newRow("the lens was covered") << 4.75 << StepState::doubtful << false;
+    QTest::newRow("covered for a while, levels far off") << -1.01 << StepState::doubtful << false;
   }
   void coloursThatDoNotAddUpAreDoubtful() {
     QFETCH(double, off);
@@ -133,7 +134,8 @@ class TestReadouts : public QObject {
       CalibrationFolder folder = CalibrationFolder::open(session_->path(), CalibrationFolder::Access::write);
       const StageResult stored = *folder.latest(Stage::linearization);
       linearization::Linearization measured = loadLinearization(stored);
-      measured.additivityError.assign(measured.additivityError.size(), off);
+      measured.additivityError.assign(measured.additivityError.size(), std::abs(off));
+      if (off < 0.0) measured.projectors.front().residuals[0].front().light = 0.4;
       storeLinearization(folder, stored.inputs, measured, {});
     }
     session_->open(session_->path());

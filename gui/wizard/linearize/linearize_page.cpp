@@ -193,16 +193,19 @@ bool LinearizePage::addsUp() const {
   return worstAdditivity() <= session_.settings().linearization.additivityLimit;
 }
 
+double largestResidual(const linearization::ProjectorResponse& response) {
+  double most = 0.0;
+  for (const std::vector<linearization::LevelResidual>& channel : response.residuals)
+    for (const auto [drive, light] : channel) most = std::max(most, std::abs(light));
+  return most;
+}
+
 /// Projectors with a white segment add as much light to white again as their colours have, hardly more.
 bool LinearizePage::isSpoilt() const {
   // Of what a white segment adds, and of full light between a level and its curve, where a hundredth is
   // usual.
   constexpr double most = 1.5, farOff = 0.2;
-  const auto isFarOff = [](const linearization::ProjectorResponse& response) {
-    return std::ranges::any_of(response.residuals, [](const auto& channel) {
-      return std::ranges::any_of(channel, [](const auto& level) { return std::abs(level.light) > farOff; });
-    });
-  };
+  const auto isFarOff = [](const auto& response) { return largestResidual(response) > farOff; };
   return worstAdditivity() > most || (result_ && std::ranges::any_of(result_->projectors, isFarOff));
 }
 

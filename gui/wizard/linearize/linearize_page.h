@@ -80,4 +80,7 @@ class LinearizePage : public DevicePage {
   int begunAt_ = 0;    // photographs of this step by then
 };
 
+/// How far the level that is farthest off lies from the curve, of full light; 0 where that was not recorded.
+double largestResidual(const linearization::ProjectorResponse& response);
+
 }  // namespace relucent::gui

@@ -70,13 +70,6 @@ std::vector<charts::Curve> residuals(const linearization::ProjectorResponse& res
   return curves;
 }
 
-double largestResidual(const linearization::ProjectorResponse& response) {
-  double most = 0.0;
-  for (const std::vector<linearization::LevelResidual>& channel : response.residuals)
-    for (const auto [drive, light] : channel) most = std::max(most, std::abs(light));
-  return most;
-}
-
 /// A round figure that is no less, so that the axis has few digits.
 double roundedUp(double percents) {
   const double decade = std::pow(10.0, std::floor(std::log10(std::max(percents, 1e-3))));

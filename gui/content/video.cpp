@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "content/video.h"
 
+#include <fmt/format.h>
 #include <QFile>
 #include <QFileInfo>
 
@@ -32,12 +33,15 @@ Video::Video(const QString& file, const Canvas& canvas) : canvas_(canvas) {
         RELUCENT_MESSAGE("disk.check-path-and-disk", "check the path and the disk"), file.toStdString());
   chooseMediaBackend();
   playback_ = std::make_unique<Playback>(file);
-  if (!playback_->frames.waitForFirst(diskPatience))
-    throw Error(ErrorKind::format,
-                RELUCENT_ENGLISH_MESSAGE("content.film-not-playable", "no film that can be played ({})")
-                    .with(playback_->frames.failure().toStdString()),
-                RELUCENT_ENGLISH_MESSAGE("content.convert-to-mp4", "convert it to H.264 in an MP4 file"),
-                file.toStdString());
+  if (!playback_->frames.waitForFirst(diskPatience)) {
+    const std::string reason = playback_->frames.failure().toStdString();
+    throw Error(
+        ErrorKind::format,
+        RELUCENT_ENGLISH_MESSAGE("content.film-not-playable", "no film that can be played ({})")
+            .with(reason.empty() ? fmt::format("no picture within {} s", diskPatience / 1000) : reason),
+        RELUCENT_ENGLISH_MESSAGE("content.convert-to-mp4", "convert it to H.264 in an MP4 file"),
+        file.toStdString());
+  }
   playback_->follower.with([this](VideoFollower& follower) { length_ = follower.length(); });
   show(playback_->frames.newest());  // what cannot be shown is refused now
 }

@@ -34,8 +34,15 @@ VideoTime::Asked VideoTime::asked() const {
   return asked_;
 }
 
-VideoStep VideoPursuit::next(const VideoTime::Asked& asked, ContentTime position,
-                             std::optional<ContentTime> shown, Clock::time_point now) {
+VideoStep VideoPursuit::next(const VideoTime::Asked& asked, const VideoSight& sight, Clock::time_point now) {
+  const auto& [position, hasPicture, shown] = sight;
+  if (!hasPicture) {
+    if (sought_ == Clock::time_point{}) sought_ = now;
+    if (now - sought_ < firstPicture_) return {};
+    sought_ = now;
+    firstPicture_ *= 2;  // a slow disk is not to begin anew for ever
+    return {false, ContentTime{0}};
+  }
   if (asked.when == Clock::time_point{} || now - asked.when > forgotten) {
     last_ = ContentTime{-1};
     return {};
@@ -101,10 +108,10 @@ void VideoFollower::statusChanged(QMediaPlayer::MediaStatus status) {
 }
 
 void VideoFollower::follow() {
-  std::optional<ContentTime> shown;
-  if (qint64 start = frames_.newest().frame.startTime(); start >= 0) shown = ContentTime(start);
-  VideoStep step = pursuit_->next(time_.asked(), std::chrono::milliseconds(player_.position()), shown,
-                                  VideoTime::Clock::now());
+  const FrameSlot::Newest newest = frames_.newest();
+  VideoSight sight{std::chrono::milliseconds(player_.position()), newest.number != 0, std::nullopt};
+  if (qint64 start = newest.frame.startTime(); start >= 0) sight.shown = ContentTime(start);
+  VideoStep step = pursuit_->next(time_.asked(), sight, VideoTime::Clock::now());
   bool stopped = player_.playbackState() == QMediaPlayer::StoppedState;
   if (step.seek) {
     // Behind its end a player has stopped, and would begin again by itself.

@@ -32,6 +32,13 @@ class VideoTime {
   Asked asked_;
 };
 
+/// State of the player.
+struct VideoSight {
+  ContentTime position{0};           // as the player reports it
+  bool hasPicture = true;            // since it was opened
+  std::optional<ContentTime> shown;  // time of the newest picture, if known
+};
+
 /// The next action of the player, to follow the requested time.
 struct VideoStep {
   bool play = false;
@@ -44,10 +51,8 @@ class VideoPursuit {
  public:
   using Clock = VideoTime::Clock;
   explicit VideoPursuit(ContentTime length) : length_(length) {}
-  /// `position`: as reported by the player. `shown`: that of the newest picture, if known; it is used while
-  /// the time stands still.
-  VideoStep next(const VideoTime::Asked& asked, ContentTime position, std::optional<ContentTime> shown,
-                 Clock::time_point now);
+  /// `sight.shown` is used while the time stands still.
+  VideoStep next(const VideoTime::Asked& asked, const VideoSight& sight, Clock::time_point now);
 
  private:
   ContentTime length_;
@@ -55,6 +60,9 @@ class VideoPursuit {
   Clock::time_point moved_{},
       sought_{};   // time of the last progress of the requested time; time of the last seek
   int again_ = 0;  // repeated seeks
+  // Qt's player may be paused before its decoder waits, and then never shows a first picture: a jump wakes
+  // it.
+  std::chrono::seconds firstPicture_{2};
 };
 
 /// Qt's player, controlled to follow the time. Lives on a thread with an event loop.

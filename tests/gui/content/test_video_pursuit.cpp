@@ -19,11 +19,12 @@ struct Player {
   int seeks = 0;
   bool playing = false;
   std::optional<ContentTime> shown;  // none: what is at its position
+  bool hasPicture = true;
 
   void tick(const VideoTime::Asked& asked) {
     now += 15ms;
     if (playing) position += std::chrono::duration_cast<ContentTime>(15ms * speed);
-    VideoStep step = pursuit.next(asked, position, shown, now);
+    VideoStep step = pursuit.next(asked, {position, hasPicture, shown}, now);
     playing = step.play;
     if (step.seek) {
       position = *step.seek;
@@ -105,6 +106,21 @@ class TestVideoPursuit : public QObject {
     player.shown = 40s;
     before = player.seeks;
     for (int i = 0; i < 1000; ++i) player.tick({40s, player.now});
+    QCOMPARE(player.seeks, before);
+  }
+
+  /// A player that was paused and shows no first picture: told again until one comes, at its beginning.
+  void aFirstPictureThatDoesNotComeIsAskedForAgain() {
+    Player player;
+    player.hasPicture = false;
+    for (int i = 0; i < 120; ++i) player.tick({});
+    QCOMPARE(player.seeks, 0);  // 1.8 s: a disk may be slow
+    for (int i = 0; i < 840; ++i) player.tick({});
+    QCOMPARE(player.seeks, 3);  // 14.4 s: after 2, 6 and 14
+    QVERIFY(!player.playing && player.position == 0s);
+    player.hasPicture = true;
+    const int before = player.seeks;
+    player.run(0s, 5s);
     QCOMPARE(player.seeks, before);
   }
 

@@ -72,6 +72,7 @@ StepStatus LinearizePage::status() const {
   switch (session_.progress(calibration::Stage::linearization)) {
     case calibration::StageProgress::done:
       if (result_ && !result_->additivityError.empty()) {
+        if (isSpoilt()) return {StepState::doubtful, tr("The photographs contradict each other")};
         const QString worst = percentText(worstAdditivity());
         if (!addsUp()) return {StepState::doubtful, tr("Colours off by %1").arg(worst)};
         return {StepState::done, tr("Colours within %1").arg(worst)};
@@ -104,7 +105,7 @@ QString LinearizePage::hint() const {
 void LinearizePage::updateCommands() {
   DevicePage::updateCommands();
   const bool free = session_.areDevicesFree() && session_.mayMeasure();
-  next_->show(addsUp() ? tr("Plan acquisition") : tr("Continue anyway"));
+  next_->show(addsUp() && !isSpoilt() ? tr("Plan acquisition") : tr("Continue anyway"));
   measure_->setGlyph(isStale() ? Icon::retry : Icon::play);
   measure_->show(isStale() ? tr("Measure again") : tr("Measure response"), !isMeasuring() && free);
   stop_->showUnless(job_.isStopping() ? tr("Stopping after the photograph under way.") : QString(),
@@ -200,13 +201,20 @@ double largestResidual(const linearization::ProjectorResponse& response) {
   return most;
 }
 
+double LinearizePage::worstResidual() const {
+  double worst = 0.0;
+  if (result_)
+    for (const linearization::ProjectorResponse& response : result_->projectors)
+      worst = std::max(worst, largestResidual(response));
+  return worst;
+}
+
 /// Projectors with a white segment add as much light to white again as their colours have, hardly more.
 bool LinearizePage::isSpoilt() const {
   // Of what a white segment adds, and of full light between a level and its curve, where a hundredth is
   // usual.
   constexpr double most = 1.5, farOff = 0.2;
-  const auto isFarOff = [](const auto& response) { return largestResidual(response) > farOff; };
-  return worstAdditivity() > most || (result_ && std::ranges::any_of(result_->projectors, isFarOff));
+  return worstAdditivity() > most || worstResidual() > farOff;
 }
 
 void LinearizePage::setLevels(int levels) {

@@ -55,6 +55,10 @@ class LinearizePage : public DevicePage {
   std::optional<double> blackShare() const;
   /// The colours of a projector do not add up: going on is allowed, and is recorded.
   bool addsUp() const;
+  /// By how much white differs from its colours, relative, and a level from its curve, of full light; of the
+  /// worst projector, 0 where unknown.
+  double worstAdditivity() const;
+  double worstResidual() const;
   /// So little that no projector's picture mode is why: photographs were spoilt.
   bool isSpoilt() const;
 
@@ -69,7 +73,6 @@ class LinearizePage : public DevicePage {
   void ended();
 
   bool isStale() const;
-  double worstAdditivity() const;
 
   PageCommand *next_, *measure_, *stop_, *again_, *return_, *retry_, *goOn_;
   DeviceLease lease_;

@@ -219,6 +219,9 @@ QWidget* inspectorOf(LinearizePage& model) {
   auto* rises = new Remark;
   for (Remark* verdict : {adds, linear, rises}) column->addWidget(verdict);
   auto* findings = new Note(Note::Kind::amber);
+  linear->setObjectName("linear-camera");
+  rises->setObjectName("rising-curves");
+  findings->setObjectName("findings");
   column->addWidget(findings);
   column->addWidget(lineOf());
   column->addWidget(labelOf(LinearizePage::tr("Exposures"), "section"));
@@ -256,10 +259,12 @@ QWidget* inspectorOf(LinearizePage& model) {
     QStringList times;
     for (double seconds : model.exposures()) times << exposureText(seconds);
     exposures->setValue(times.isEmpty() ? QString::fromUtf8("–") : times.join(", "));
-    bool known = model.result() && !model.isMeasuring();
-    linear->setVisible(known);
-    rises->setVisible(known);
-    findings->setVisible(known && !model.result()->findings.empty());
+    const bool known = model.result() && !model.isMeasuring();
+    // Of photographs that contradict each other nothing follows, for camera and projector neither.
+    const bool isTrusted = known && !model.isSpoilt();
+    linear->setVisible(isTrusted);
+    rises->setVisible(isTrusted);
+    findings->setVisible(isTrusted && !model.result()->findings.empty());
     if (!known) {
       adds->show(Kind::watch,
                  model.isMeasuring() ? LinearizePage::tr("Measuring") : LinearizePage::tr("Not measured yet"),
@@ -268,25 +273,27 @@ QWidget* inspectorOf(LinearizePage& model) {
                      "one below is told when all levels are measured."));
       return;
     }
+    if (!isTrusted) {
+      adds->show(Kind::warning, LinearizePage::tr("The photographs contradict each other"),
+                 LinearizePage::tr("White differs by %1 from its colours, and levels by up to %2 from their "
+                                   "curve: no picture mode does that. Something covered the lens or the "
+                                   "picture, or the light changed. Nothing else is told from these "
+                                   "photographs; measure again.")
+                     .arg(percentText(model.worstAdditivity()), percentText(model.worstResidual())));
+      return;
+    }
     const linearization::Linearization& result = *model.result();
-    double worst = result.additivityError.empty()
-                       ? 0.0
-                       : *std::max_element(result.additivityError.begin(), result.additivityError.end());
+    const QString worst = percentText(model.worstAdditivity());
     if (model.addsUp())
-      adds->show(
-          Kind::good, LinearizePage::tr("The colours add up"),
-          LinearizePage::tr("Red, green and blue together give white within %1.").arg(percentText(worst)));
+      adds->show(Kind::good, LinearizePage::tr("The colours add up"),
+                 LinearizePage::tr("Red, green and blue together give white within %1.").arg(worst));
     else
-      adds->show(Kind::warning, LinearizePage::tr("The colours do not add up"),
-                 (model.isSpoilt()
-                      ? LinearizePage::tr(
-                            "White differs by %1 from its colours, more than any picture mode makes: the "
-                            "photographs contradict each other.")
-                      : LinearizePage::tr(
-                            "White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the "
-                            "projector's menu, then measure again."))
-                     .arg(percentText(worst)));
-    bool identity =
+      adds->show(
+          Kind::warning, LinearizePage::tr("The colours do not add up"),
+          LinearizePage::tr("White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in "
+                            "the projector's menu, then measure again.")
+              .arg(worst));
+    const bool identity =
         model.camera() < result.cameras.size() && result.cameras[model.camera()].response[1].isIdentity();
     linear->show(Kind::good,
                  identity ? LinearizePage::tr("The camera is linear")

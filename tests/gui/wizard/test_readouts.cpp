@@ -144,6 +144,12 @@ class TestReadouts : public QObject {
     QCOMPARE(page.primary()->text() != again, isNext);
     QCOMPARE(page.secondary().front()->text() == again, isNext);
     QVERIFY(page.primary()->isEnabled() && page.secondary().front()->isEnabled());
+    // Neither camera nor projector is praised or blamed for photographs that contradict each other.
+    const PageView view = viewOf(page);
+    const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
+    for (const char* name : {"linear-camera", "rising-curves"})
+      QCOMPARE(inspector->findChild<QWidget*>(name)->isHidden(), !isNext);
+    QVERIFY(isNext || inspector->findChild<QWidget*>("findings")->isHidden());
   }
 
   /// Law: a view of which no exposure shows much is no plain tick, whoever has kept them.

@@ -127,17 +127,19 @@ void addJudgement(ReportVerification& verification, const fs::path& folder,
     verification.others[other].deltaEPredicted = record->figures.others[other].after.predicted.deltaE;
 }
 
-/// What proveCalibration() left in the calibration, unless the light transport was measured after that or
-/// something is missing.
+/// What proveCalibration() left in the calibration, unless something is missing; of versions that kept no
+/// record, only what is younger than the light transport.
 std::optional<ReportVerification> verificationIn(const calibration::CalibrationFolder& calibration,
                                                  const calibration::StageResult& acquired,
                                                  std::size_t cameras) {
   fs::path folder = calibration.path() / "verification", photograph = folder / "after.png";
   std::error_code missing;
   fs::file_time_type taken = fs::last_write_time(photograph, missing);
-  if (missing || taken < fs::last_write_time(calibration::fileOf(acquired, "transport.npz"), missing))
-    return std::nullopt;
+  if (missing) return std::nullopt;
   try {
+    if (!pipeline::loadProofRecord(folder) &&
+        taken < fs::last_write_time(calibration::fileOf(acquired, "transport.npz"), missing))
+      return std::nullopt;
     auto read = [&](const char* name) { return image::readPicture(folder / name).encoded; };
     ReportVerification verification{read("target.png"),
                                     read("before.png"),

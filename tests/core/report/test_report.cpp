@@ -548,6 +548,33 @@ class TestReport : public QObject {
     }
   }
 
+  /// Law: a photograph of before a repair is called out of date, not left out in silence.
+  void whatWasPhotographedBeforeARepairIsOutOfDate() {
+    QTemporaryDir folder;
+    const std::filesystem::path path = folder.path().toStdString();
+    Progress silent;
+    calibrate(path / "venue", plainVenue(), path / "cache", silent);
+    ProveSettings proof;
+    proof.out = path / "venue" / "verification";
+    proof.image = path / "picture.exr";
+    writeExr(proof.image, waves(1.0, 0.5), ExrType::half);
+    const ProveResult figures = proveCalibration(path / "venue", proof, path / "cache", silent);
+    std::filesystem::last_write_time(
+        proof.out / "after.png",
+        std::filesystem::last_write_time(proof.out / "after.png") - std::chrono::hours(24));
+    const auto saysOutOfDate = [&] {
+      return QString::fromStdString(
+                 readFile(makeReport(path / "venue", {}, path / "cache", silent).files.front()))
+          .contains("is out of date");
+    };
+    std::filesystem::remove(proof.out / "proof.json");
+    QVERIFY(!saysOutOfDate());  // nobody knows of what it was
+    saveProofRecord(
+        {.taken = "2026-01-03T04:05:06Z", .measurement = "before", .content = {}, .figures = figures},
+        proof.out);
+    QVERIFY(saysOutOfDate());
+  }
+
   void aBundleShowsNothingOfTheVenueUnlessAsked() {
     QTemporaryDir folder;
     std::filesystem::path path = folder.path().toStdString();

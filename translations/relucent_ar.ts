@@ -5654,8 +5654,12 @@
         <translation>أكّد أن القاعة خالية: الأنماط تومض.</translation>
     </message>
     <message>
-        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
-        <translation>يختلف الأبيض بمقدار %1 عن ألوانه، أكثر مما يُحدثه أي وضع صورة: الصور تناقض بعضها.</translation>
+        <source>The photographs contradict each other</source>
+        <translation>الصور يناقض بعضها بعضًا</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
+        <translation>يختلف الأبيض بمقدار %1 عن ألوانه، وتختلف المستويات بما يصل إلى %2 عن منحناها: لا يُحدث ذلك أي وضع صورة. غطّى شيء العدسة أو الصورة، أو تغيّر الضوء. لا يُستنتج من هذه الصور شيء آخر؛ أعد القياس.</translation>
     </message>
 </context>
 <context>
@@ -7450,8 +7454,8 @@ projector %2</source>
         <translation>غير محسَّنة منذ التغيير</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>حُسِّنت لقياس سابق أو لمجموعة أخرى أو لموضع آخر. ذلك محفوظ، لكنه لا يفيد الآن: حسِّنها مرة أخرى.</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>حُسِّنت لقياس سابق أو لمجموعة أخرى أو بأقنعة أخرى أو لموضع آخر. ذلك محفوظ، لكنه لا يفيد الآن: حسِّنها مرة أخرى.</translation>
     </message>
 </context>
 <context>

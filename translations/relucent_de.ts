@@ -5526,8 +5526,12 @@
         <translation>Bestätigen Sie, dass der Raum geräumt ist: Die Muster blitzen.</translation>
     </message>
     <message>
-        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
-        <translation>Weiß weicht um %1 von seinen Farben ab, mehr als jeder Bildmodus bewirkt: Die Fotos widersprechen einander.</translation>
+        <source>The photographs contradict each other</source>
+        <translation>Die Fotos widersprechen einander</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
+        <translation>Weiß weicht um %1 von seinen Farben ab, und Stufen um bis zu %2 von ihrer Kurve: Das bewirkt kein Bildmodus. Etwas verdeckte das Objektiv oder das Bild, oder das Licht änderte sich. Sonst lässt sich aus diesen Fotos nichts ablesen; noch einmal messen.</translation>
     </message>
 </context>
 <context>
@@ -7298,8 +7302,8 @@ Projektor %2</translation>
         <translation>Seit der Änderung nicht perfektioniert</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Es wurde für eine frühere Messung, für eine andere Variante oder anders platziert perfektioniert. Das ist aufgehoben, nützt jetzt aber nichts: Perfektionieren Sie es noch einmal.</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Es wurde für eine frühere Messung, für eine andere Variante, mit anderen Masken oder anders platziert perfektioniert. Das ist aufgehoben, nützt jetzt aber nichts: Perfektionieren Sie es noch einmal.</translation>
     </message>
 </context>
 <context>

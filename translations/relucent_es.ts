@@ -5526,8 +5526,12 @@
         <translation>Confirme que la sala está despejada: los patrones destellan.</translation>
     </message>
     <message>
-        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
-        <translation>El blanco difiere en %1 de sus colores, más de lo que causa cualquier modo de imagen: las fotos se contradicen.</translation>
+        <source>The photographs contradict each other</source>
+        <translation>Las fotografías se contradicen</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
+        <translation>El blanco difiere en %1 de sus colores, y los niveles hasta en %2 de su curva: ningún modo de imagen causa eso. Algo tapaba el objetivo o la imagen, o cambió la luz. De estas fotografías no se deduce nada más; mida de nuevo.</translation>
     </message>
 </context>
 <context>
@@ -7298,8 +7302,8 @@ proyector %2</translation>
         <translation>Sin perfeccionar desde el cambio</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Se perfeccionó para una medición anterior, para otra variante, o colocada de otro modo. Eso se conserva, pero ahora no sirve: perfecciónela otra vez.</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Se perfeccionó para una medición anterior, para otra variante, con otras máscaras, o colocada de otro modo. Eso se conserva, pero ahora no sirve: perfecciónela otra vez.</translation>
     </message>
 </context>
 <context>

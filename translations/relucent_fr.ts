@@ -5526,8 +5526,12 @@
         <translation>Confirmez que la salle est évacuée : les motifs clignotent.</translation>
     </message>
     <message>
-        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
-        <translation>Le blanc diffère de %1 de ses couleurs, plus que ne le fait aucun mode d’image : les photos se contredisent.</translation>
+        <source>The photographs contradict each other</source>
+        <translation>Les photos se contredisent</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
+        <translation>Le blanc diffère de %1 de ses couleurs, et des niveaux jusqu’à %2 de leur courbe : aucun mode d’image ne fait cela. Quelque chose masquait l’objectif ou l’image, ou la lumière a changé. On ne peut rien déduire d’autre de ces photos ; mesurez de nouveau.</translation>
     </message>
 </context>
 <context>
@@ -7298,8 +7302,8 @@ projecteur %2</translation>
         <translation>Pas perfectionnée depuis le changement</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Elle a été perfectionnée pour une mesure antérieure, pour une autre variante, ou placée autrement. Cela est conservé, mais ne sert plus&#xa0;: perfectionnez-la encore une fois.</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Elle a été perfectionnée pour une mesure antérieure, pour une autre variante, avec d’autres masques, ou placée autrement. Cela est conservé, mais ne sert plus : perfectionnez-la encore une fois.</translation>
     </message>
 </context>
 <context>

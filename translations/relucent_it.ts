@@ -5526,8 +5526,12 @@
         <translation>Confermare che la sala è sgombra: i pattern lampeggiano.</translation>
     </message>
     <message>
-        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
-        <translation>Il bianco differisce del %1 dai suoi colori, più di quanto faccia qualsiasi modalità d’immagine: le foto si contraddicono.</translation>
+        <source>The photographs contradict each other</source>
+        <translation>Le fotografie si contraddicono</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
+        <translation>Il bianco differisce del %1 dai suoi colori, e i livelli fino al %2 dalla loro curva: nessuna modalità d’immagine fa questo. Qualcosa copriva l’obiettivo o l’immagine, oppure la luce è cambiata. Da queste fotografie non si ricava altro; misurare di nuovo.</translation>
     </message>
 </context>
 <context>
@@ -7298,8 +7302,8 @@ proiettore %2</translation>
         <translation>Non perfezionata dopo il cambiamento</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>È stata perfezionata per una misura precedente, per un’altra variante, o posizionata in altro modo. Resta conservato, ma ora non serve: va perfezionata ancora una volta.</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>È stata perfezionata per una misura precedente, per un’altra variante, con altre maschere, o posizionata in altro modo. Resta conservato, ma ora non serve: va perfezionata ancora una volta.</translation>
     </message>
 </context>
 <context>

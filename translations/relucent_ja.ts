@@ -5494,8 +5494,12 @@
         <translation>退避が完了したことを確認してください。パターンは点滅します。</translation>
     </message>
     <message>
-        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
-        <translation>白が各色の合計と %1 ずれています。画質モードで生じる範囲を超えており、撮影結果が矛盾しています。</translation>
+        <source>The photographs contradict each other</source>
+        <translation>写真どうしが矛盾しています</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
+        <translation>白は各色の合計と %1、各レベルは曲線と最大 %2 ずれています。画質モードではこうはなりません。レンズまたは投影像が覆われたか、光が変わりました。これらの写真からほかのことは判断できません。測定し直してください。</translation>
     </message>
 </context>
 <context>
@@ -7260,8 +7264,8 @@ projector %2</source>
         <translation>変更後は未仕上げ</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>以前の測定用、別のセット用、または別の配置で仕上げられています。それは保存されていますが、今は使えません。もう一度仕上げてください。</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>以前の測定用、別のセット用、別のマスクで、または別の配置で仕上げられています。それは保存されていますが、今は使えません。もう一度仕上げてください。</translation>
     </message>
 </context>
 <context>

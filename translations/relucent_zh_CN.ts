@@ -5494,8 +5494,12 @@
         <translation>请确认已清场：图案会闪烁。</translation>
     </message>
     <message>
-        <source>White differs by %1 from its colours, more than any picture mode makes: the photographs contradict each other.</source>
-        <translation>白色与各颜色之和相差 %1，超出任何画面模式的影响：照片相互矛盾。</translation>
+        <source>The photographs contradict each other</source>
+        <translation>照片相互矛盾</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
+        <translation>白色与各颜色之和相差 %1，各级与其曲线最多相差 %2：没有任何画面模式会造成这种情况。有东西遮住了镜头或画面，或者光线发生了变化。从这些照片无法得出其他结论；请重新测量。</translation>
     </message>
 </context>
 <context>
@@ -7260,8 +7264,8 @@ projector %2</source>
         <translation>更改后尚未完善</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>它是为先前的测量、另一个方案或另一种放置完善的。那些结果仍保留，但现在不适用：请再完善一次。</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>它是为先前的测量、另一个方案、其他遮罩或另一种放置完善的。那些结果仍保留，但现在不适用：请再完善一次。</translation>
     </message>
 </context>
 <context>

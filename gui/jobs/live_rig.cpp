@@ -152,6 +152,7 @@ void LiveRig::photographed(std::size_t index, const rig::CaptureRequest& request
         floodlight = {frame.signal, photographs_, share};
     }
     if (index == 0) ramps_.add(patterns_, frame);
+    dark_.add(index, patterns_, frame);
     if (since_.isValid() && since_.elapsed() < interval_) return;
     since_.start();
   }
@@ -195,6 +196,12 @@ std::array<std::map<double, double>, 3> LiveRig::ramps(std::size_t projector) co
 void LiveRig::forgetRamps() {
   QMutexLocker lock(&guard_);
   ramps_ = {};
+  dark_.forget();
+}
+
+bool LiveRig::isDark() const {
+  QMutexLocker lock(&guard_);
+  return dark_.last();
 }
 
 void LiveRig::pause() {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "jobs/dark_photographs.h"
 #include "relucent/linearization/ramp_preview.h"
 #include "relucent/rig/watched_rig.h"
 
@@ -77,7 +78,9 @@ class LiveRig : public QObject, public rig::RigWatcher {
   int floodlightNumber(std::size_t camera = 0) const;
   /// As the first camera's photographs show them.
   std::array<std::map<double, double>, 3> ramps(std::size_t projector = 0) const;
-  /// They are measured anew: what photographs from before show is of another time.
+  /// The last photographs show next to nothing of what is projected.
+  bool isDark() const;
+  /// Ramps are measured anew: what photographs from before show is of another time.
   void forgetRamps();
 
   /// Pauses before the next pattern; the projectors show black meanwhile.
@@ -125,6 +128,7 @@ class LiveRig : public QObject, public rig::RigWatcher {
   std::deque<Clock::duration> arrivals_;     // of the last photographs
   std::map<std::string, Taken> taken_;       // by stage
   linearization::RampPreview ramps_;
+  DarkPhotographs dark_;
   int photographs_ = 0;
   QElapsedTimer since_;
 };

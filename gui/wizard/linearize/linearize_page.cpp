@@ -2,6 +2,7 @@
 #include "wizard/linearize/linearize_page.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "relucent/base/message.h"
 #include "relucent/base/time_left.h"
@@ -36,7 +37,10 @@ LinearizePage::LinearizePage(Session& session, QObject* parent)
     result_.reset();
     shown_.clear();
     connect(&session_.live(), &LiveRig::seen, this, [this] {
-      if (isMeasuring()) tellProgress();
+      if (!isMeasuring()) return;
+      tellProgress();
+      const bool isDark = session_.live().isDark();
+      if (isDark != std::exchange(wasDark_, isDark)) tellStatus();
     });
     look();
   });
@@ -140,6 +144,11 @@ std::optional<double> LinearizePage::progress() const {
 
 std::optional<Banner> LinearizePage::banner() const {
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOn_);
+  if (isMeasuring() && session_.live().isDark())
+    return Banner{
+        Banner::Kind::amber, tr("The camera sees hardly any light of the projector"),
+        tr("See that nothing covers the lens or the picture. What is photographed meanwhile is lost: "
+           "stop, and measure again.")};
   if (isMeasuring()) return std::nullopt;
   if (!isStale()) return overTheShow();
   return Banner{Banner::Kind::amber, tr("These curves belong to earlier settings"),

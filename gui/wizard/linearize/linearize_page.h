@@ -80,7 +80,8 @@ class LinearizePage : public DevicePage {
   Job job_;  // ends before what its work uses
   std::optional<linearization::Linearization> result_;
   std::string shown_;  // when the result was stored that is in result_
-  int begunAt_ = 0;    // photographs of this step by then
+  bool wasDark_ = false;
+  int begunAt_ = 0;  // photographs of this step by then
 };
 
 /// How far the level that is farthest off lies from the curve, of full light; 0 where that was not recorded.

@@ -197,7 +197,8 @@ QWidget* blackPart(LinearizePage& model) {
   column->addWidget(contrast);
   auto refresh = [&model, part, black, contrast] {
     // While it is measured anew, what is known is of before.
-    const std::optional<double> share = model.isMeasuring() ? std::nullopt : model.blackShare();
+    const std::optional<double> share =
+        model.isMeasuring() || model.isSpoilt() ? std::nullopt : model.blackShare();
     part->setVisible(share.has_value());
     if (!share) return;
     black->setValue(LinearizePage::tr("%1 of full light").arg(percentText(*share)));

@@ -191,7 +191,8 @@ void showProof(Remark& remark, const OutputPage& page) {
 
 /// `hasMoved`: the photograph shows that the camera was bumped, which can be undone by hand, too.
 void showDrift(Remark& remark, const OutputProof& proof, bool hasMoved) {
-  const pipeline::DriftRecord* drift = proof.newestDrift();
+  const bool isContradicted = proof.isCheckContradicted();
+  const pipeline::DriftRecord* drift = isContradicted ? &*proof.drift() : proof.newestDrift();
   const bool isEnded = proof.endedUnclear() == OutputProof::Work::drift;
   remark.setVisible(isEnded || drift != nullptr);
   if (isEnded)
@@ -225,6 +226,12 @@ void showDrift(Remark& remark, const OutputProof& proof, bool hasMoved) {
                        meaning);
   switch (drift->verdict) {
     case acquisition::Verdict::stillGood:
+      if (isContradicted || proof.isUnsettled())
+        return remark.show(Remark::Kind::watch,
+                           OutputPage::tr("The test patterns fit, the photograph does not"),
+                           meaning + '\n' +
+                               OutputPage::tr("Few patterns can miss a small part. Where another photograph "
+                                              "differs, too, a repair looks closer."));
       return remark.show(Remark::Kind::good, OutputPage::tr("The measurement still holds"), meaning);
     case acquisition::Verdict::remeasure:
       return remark.show(

@@ -209,7 +209,8 @@ QString OutputPage::hint() const {
     if (next != OutputProof::Next::photograph)
       // Installed all the same: what was found of it stands.
       return isInstalled() ? tr("Installed as it is. %1").arg(doubtedHint()) : doubtedHint();
-    if (isBlack() || isFrozen() || showsChart() || isInstalled()) return playingHint();
+    if (isBlack() || isFrozen() || showsChart() || (isInstalled() && !proof_.isUnsettled()))
+      return playingHint();
     if (!isInstallable())
       return tr("Take a verification photograph: it proves that the venue is measured well.");
     return isJudged() ? tr("Take a verification photograph. What was found before is not settled.")
@@ -256,7 +257,8 @@ QString OutputPage::doubtedHint() const {
 /// What was found of it last asks for more than a photograph.
 bool OutputPage::isDoubted() const {
   const OutputProof::Next next = proof_.next();
-  return next != OutputProof::Next::install && next != OutputProof::Next::photograph;
+  return proof_.isUnsettled() ||
+         (next != OutputProof::Next::install && next != OutputProof::Next::photograph);
 }
 
 /// Something was found of what is shown now.

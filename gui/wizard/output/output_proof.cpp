@@ -36,6 +36,17 @@ std::shared_ptr<Proof> proofOf(pipeline::ProveResult figures, const fs::path& fo
   return proof;
 }
 
+QDateTime timeOf(const pipeline::DriftRecord& drift) {
+  return QDateTime::fromString(QString::fromStdString(drift.checked), Qt::ISODate);
+}
+
+/// So that nobody asks for the former again because of the latter.
+bool isShortlyBefore(const QDateTime& former, const QDateTime& latter) {
+  constexpr qint64 shortly = 3600;  // seconds
+  const qint64 between = former.secsTo(latter);
+  return between >= 0 && between < shortly;
+}
+
 /// By a dozen patterns one after the other, where a photograph needs a few pictures that stand.
 bool flashes(OutputProof::Work work) {
   return work == OutputProof::Work::drift || work == OutputProof::Work::repair;
@@ -115,7 +126,7 @@ void OutputProof::look() {
 
 const pipeline::DriftRecord* OutputProof::newestDrift() const {
   if (!drift_) return nullptr;
-  const QDateTime checked = QDateTime::fromString(QString::fromStdString(drift_->checked), Qt::ISODate);
+  const QDateTime checked = timeOf(*drift_);
   // Than a photograph of this measurement: one of a repair from which somebody went back says nothing of it.
   // What looked as predicted then stands where it stood, whatever is shown since, another set or other
   // content.
@@ -139,9 +150,24 @@ OutputProof::Next OutputProof::next() const {
     return isMoved ? Next::pushBack : isBeyondRepair() ? Next::measureAgain : Next::repair;
   if (proof == nullptr) return Next::photograph;
   if (proof->isAsPredicted()) return Next::install;
-  // What was measured holds: something was in the way of that photograph.
+  // The patterns fit: perhaps something was in the way of that photograph.
   if (drift != nullptr) return Next::photograph;
-  return isMoved ? Next::pushBack : Next::checkDrift;
+  const bool wasRepairInVain = repair_ && repair_->end != pipeline::RepairEnd::repaired;
+  if (wasRepairInVain && proof->taken <= repairTried_)
+    return isBeyondRepair() ? Next::measureAgain : Next::photograph;
+  if (isMoved) return Next::pushBack;
+  if (wasRepairInVain && isShortlyBefore(repairTried_, proof->taken)) return Next::measureAgain;
+  return isCheckContradicted() ? Next::repair : Next::checkDrift;
+}
+
+bool OutputProof::isCheckContradicted() const {
+  const Proof* proof = current();
+  return drift_ && drift_->verdict == acquisition::Verdict::stillGood && newestDrift() == nullptr &&
+         proof != nullptr && !proof->isAsPredicted() && isShortlyBefore(timeOf(*drift_), proof->taken);
+}
+
+bool OutputProof::isUnsettled() const {
+  return current() != nullptr && !current()->isAsPredicted() && !pushedBack_ && next() == Next::photograph;
 }
 
 void OutputProof::cameraLeft(double pixels) {
@@ -249,6 +275,11 @@ void OutputProof::undoRepair() {
     pipeline::undoRepair(session_.path());
     repair_.reset();
     session_.reload();
+    // The repair found what that check had missed.
+    if (drift_ && drift_->verdict == acquisition::Verdict::stillGood) {
+      drift_.reset();
+      forgetDrift(proofFolder(session_.path()));
+    }
   } catch (...) {
     Q_EMIT failed(failureOf(std::current_exception()));
     return;
@@ -304,6 +335,7 @@ void OutputProof::finished() {
       forgetDrift(proofFolder(session_.path()));
     }
     repairOf_ = measurementOf(session_);
+    repairTried_ = QDateTime::currentDateTimeUtc();
   }
   const bool isSeen = done && (found->proof || found->drift);
   if (isSeen) pushedBack_ = false;

@@ -68,6 +68,11 @@ class OutputProof : public QObject {
   const std::optional<pipeline::DriftRecord>& drift() const { return drift_; }
   /// The same where no photograph was taken later, which says more; else none.
   const pipeline::DriftRecord* newestDrift() const;
+  /// The test patterns fitted shortly before the last photograph, which was not as predicted all the same:
+  /// few patterns miss small parts.
+  bool isCheckContradicted() const;
+  /// The last photograph was not as predicted, and nothing was found since that says why.
+  bool isUnsettled() const;
   /// What the last repair here came to; none: there was none since the calibration was opened or changed.
   const std::optional<pipeline::RepairResult>& repair() const { return repair_; }
   /// It was tried in vain, and nothing else was found since.
@@ -131,6 +136,7 @@ class OutputProof : public QObject {
   std::string driftOf_;  // the measurement that it was looked for of
   std::optional<pipeline::RepairResult> repair_;
   std::string repairOf_;  // the measurement that `repair_` left
+  QDateTime repairTried_;
   bool wasOutOfDate_ = false;
   bool pushedBack_ = false;  // since the last photograph
   std::optional<double> leftElsewhere_;

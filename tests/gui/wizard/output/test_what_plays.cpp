@@ -11,7 +11,7 @@
 #include <QtTest>
 
 #include "gui/output/two_screens.h"
-#include "gui/wizard/simulated_session.h"
+#include "gui/wizard/output/output_on_venue.h"
 #include "output/default_picture.h"
 #include "output/venue_use.h"
 #include "relucent/base/file.h"
@@ -34,46 +34,8 @@ using namespace relucent;
 using namespace relucent::calibration;
 using namespace relucent::gui;
 
-class TestWhatPlays : public QObject {
+class TestWhatPlays : public QObject, private OutputOnVenue {
   Q_OBJECT
-
-  SimulatedSession own_;
-  std::unique_ptr<OutputPage> page_;
-
-  Session& session() { return own_.session; }
-  std::size_t screen(const QString& connector) const {
-    std::size_t index = 0;
-    while (page_->screens().at(index).identity.connector != connector) ++index;
-    return index;
-  }
-  void openOutput() {
-    page_->open();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !page_->projection().onProjector().isNull(), patience);
-  }
-  bool offersProof() const {
-    return page_->mayProve() && page_->primary()->text() == OutputPage::tr("Take verification photograph");
-  }
-  bool isIdle() const { return page_->proof().work() == OutputProof::Work::none; }
-  /// The venue, after it was measured: its results stay those of the venue as it was.
-  void becomes(const std::function<void(venue::Changes&)>& change) {
-    const std::filesystem::path path = session().path();
-    session().close();
-    {
-      CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
-      auto rig = std::get<venue::VenueSettings>(pipeline::settingsOf(folder).rig);
-      change(rig.changes);
-      folder.setRig(pipeline::rigToJson(rig));
-      for (Stage stage : allValues<Stage>()) folder.takeAsCurrent(stage, fingerprintOf(folder, stage));
-    }
-    session().open(path);
-    page_->choose(screen("DUMMY1"));
-  }
-  template <typename Change>
-  void change(Change apply) {
-    pipeline::CalibrateSettings settings = session().settings();
-    apply(settings);
-    session().changeSettings(settings);
-  }
 
   static double lightOf(const QImage& picture) {
     double sum = 0.0;
@@ -83,23 +45,9 @@ class TestWhatPlays : public QObject {
   }
 
  private slots:
-  void initTestCase() {
-    Progress silent;
-    pipeline::calibrate(own_.path("measured"), smallVenue({48, 36}, {40, 30}, 5), own_.path("cache"), silent);
-  }
-  void init() {
-    std::filesystem::remove_all(own_.path("venue"));
-    std::filesystem::copy(own_.path("measured"), own_.path("venue"),
-                          std::filesystem::copy_options::recursive);
-    page_ = std::make_unique<OutputPage>(session());
-    session().open(own_.path("venue"));
-    page_->choose(screen("DUMMY1"));
-    QVERIFY(QFile::exists(defaultPicture()) && !page_->playlist().isEmpty());
-  }
-  void cleanup() {
-    page_.reset();
-    session().close();
-  }
+  void initTestCase() { measureOnce(); }
+  void init() { begin(); }
+  void cleanup() { end(); }
 
   void aStreamWithoutAPictureIsNoStill() {
     page_->addFiles({QString("stream:udp://127.0.0.1:%1").arg(test::freeUdpPort())});
@@ -419,76 +367,6 @@ class TestWhatPlays : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(plays(false) && page_->projection().statistics().frames > 1, patience);
   }
 
-  /// Law: what a photograph found stands, whether or not the output is open.
-  void whatDoesNotLookAsPredictedIsSaidWhileClosed() {
-    becomes([](venue::Changes& changes) { changes.cameras.push_back({0, 2.0, 2.0, 0.0}); });
-    openOutput();
-    page_->verify();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().proof() && isIdle(), patience);
-    QVERIFY(!page_->proof().proof()->isAsPredicted());
-    page_->close();
-    QTRY_VERIFY_WITH_TIMEOUT(!page_->isOpen(), patience);
-    QCOMPARE(page_->status().state, StepState::doubtful);
-    QCOMPARE(page_->status().result, QString("Not as predicted"));
-    QVERIFY2(page_->hint().contains("did not look as predicted"), qPrintable(page_->hint()));
-  }
-
-  /// Law: what was tried in vain is of the view that it was tried of: put back, or looked at once more, it
-  /// may be tried again.
-  void aRepairInVainIsOfWhatItSaw() {
-    // What photographs of a picture do not tell apart.
-    becomes([](venue::Changes& changes) { changes.lamps = {0.98, 0.98, 0.975}; });
-    openOutput();
-    page_->repair();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().repair() && isIdle(), patience);
-    QCOMPARE(page_->proof().repair()->end, pipeline::RepairEnd::notBetter);
-    QVERIFY(page_->proof().isBeyondRepair());
-    page_->checkDrift();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().drift() && isIdle(), patience);
-    QVERIFY(!page_->proof().isBeyondRepair() && !page_->proof().repair());
-  }
-
-  /// Law: a check that finds a change leads to the repair, which is photographed, shown at once, and taken
-  /// back by one button. What is measured again is not what was proved before.
-  void aVenueThatChangedIsRepaired() {
-    becomes([](venue::Changes& changes) { changes.painted.push_back({{0.45, 0.5}, 0.3}); });
-    openOutput();
-    page_->verify();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().proof() && isIdle(), patience);
-    page_->checkDrift();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().drift() && isIdle(), patience);
-    QCOMPARE(page_->proof().next(), OutputProof::Next::repair);
-    QCOMPARE(page_->primary()->text(), OutputPage::tr("Repair the calibration"));
-    QVERIFY(page_->primary()->isEnabled() && !page_->proof().repairNote());
-    QVERIFY(page_->isOpen() && page_->status().isHeldUp);
-    QCOMPARE(page_->status().result, QString("Not as predicted"));
-    const std::string before = session().correction();
-    page_->primary()->trigger();
-    QCOMPARE(page_->proof().work(), OutputProof::Work::repair);
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().repair() && isIdle(), patience);
-    QCOMPARE(page_->proof().repair()->end, pipeline::RepairEnd::repaired);
-    QVERIFY(session().correction() != before && page_->proof().repairNote());
-    QVERIFY(!page_->proof().drift() && page_->proof().isOutOfDate());
-    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !page_->playsEarlier(), patience);
-    QCOMPARE(page_->proof().next(), OutputProof::Next::photograph);
-    // Of the repaired one, which is not in use after going back.
-    page_->verify();
-    QTRY_VERIFY_WITH_TIMEOUT(!page_->proof().isOutOfDate() && isIdle(), patience);
-    QSignalSpy asked(page_.get(), &PageModel::failed);
-    page_->askToUndoRepair();
-    QCOMPARE(asked.size(), 1);
-    const auto question = asked.front().front().value<FailureReport>();
-    QVERIFY(question.isQuestion && question.reason && page_->proof().repairNote());
-    question.goOn->trigger();
-    QVERIFY(!question.reason);
-    QCOMPARE(session().correction(), before);
-    QVERIFY(!page_->proof().repairNote() && page_->proof().isOutOfDate());
-    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !page_->playsEarlier(), patience);
-    // What was found of it before holds of it again, and is said.
-    QVERIFY(page_->proof().drift().has_value() && page_->proof().newestDrift() != nullptr);
-    QCOMPARE(page_->proof().next(), OutputProof::Next::repair);
-  }
-
   /// Law: while another step has the devices, no part of the page says that nothing is projected.
   void devicesInUseAreNoDarkProjector() {
     const PageView view = viewOf(*page_);
@@ -504,55 +382,6 @@ class TestWhatPlays : public QObject {
       QVERIFY(!page_->hint().contains("Nothing is projected"));
     }
     QTRY_VERIFY(says("Nothing is projected"));
-  }
-
-  /// Law: a photograph that was as predicted settles an earlier check, for another set and other content,
-  /// too: where camera and projector stand is not theirs.
-  void whatWasProvedSettlesAnEarlierCheck() {
-    becomes([](venue::Changes& changes) { changes.painted.push_back({{0.45, 0.5}, 0.3}); });
-    openOutput();
-    page_->checkDrift();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().newestDrift() != nullptr && isIdle(), patience);
-    QCOMPARE(page_->proof().next(), OutputProof::Next::repair);
-    const qint64 checked = QDateTime::currentSecsSinceEpoch();
-    QTRY_VERIFY(QDateTime::currentSecsSinceEpoch() > checked + 1);  // they are told apart by seconds
-    page_->close();
-    becomes([](venue::Changes& changes) { changes.painted.clear(); });
-    openOutput();
-    page_->verify();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().proof() && isIdle(), patience);
-    QVERIFY(page_->proof().proof()->isAsPredicted() && page_->proof().newestDrift() == nullptr);
-    change([](pipeline::CalibrateSettings& settings) { settings.content.reachablePercentile = 40.0; });
-    QVERIFY(page_->proof().isOutOfDate() && page_->proof().newestDrift() == nullptr);
-    QCOMPARE(page_->proof().next(), OutputProof::Next::photograph);
-  }
-
-  /// Law: a photograph from before a check that found a change is no praise beside it, and both say when they
-  /// were taken.
-  void whatWasProvedBeforeIsMarked() {
-    const std::unique_ptr<QWidget> inspector(outputInspector(*page_));
-    const auto said = [&](const char* remark) {
-      QStringList texts;
-      for (const QLabel* label : inspector->findChild<QWidget*>(remark)->findChildren<QLabel*>())
-        texts << label->text();
-      return texts.join('\n');
-    };
-    openOutput();
-    page_->verify();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().proof() && isIdle(), patience);
-    QVERIFY(page_->proof().proof()->isAsPredicted());
-    const QString praise = OutputPage::tr("The surface looks as predicted");
-    const QString taken = QLocale().toString(page_->proof().proof()->taken, QLocale::ShortFormat);
-    QVERIFY2(said("proof-remark").contains(taken), qPrintable(said("proof-remark")));
-    becomes([](venue::Changes& changes) { changes.painted.push_back({{0.45, 0.5}, 0.3}); });
-    page_->checkDrift();
-    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().newestDrift() != nullptr && isIdle(), patience);
-    QVERIFY(page_->proof().drift()->verdict == acquisition::Verdict::remeasure);
-    QVERIFY2(!said("proof-remark").contains(praise), qPrintable(said("proof-remark")));
-    QVERIFY2(said("proof-remark")
-                 .contains(OutputPage::tr("Photographed %1, before the last check for drift.").arg(taken)),
-             qPrintable(said("proof-remark")));
-    QVERIFY2(said("drift-remark").contains("Checked "), qPrintable(said("drift-remark")));
   }
 
   /// Law: while patterns stand on the projectors, no part of the window says that nothing does; the rail says

@@ -5661,6 +5661,14 @@
         <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
         <translation>يختلف الأبيض بمقدار %1 عن ألوانه، وتختلف المستويات بما يصل إلى %2 عن منحناها: لا يُحدث ذلك أي وضع صورة. غطّى شيء العدسة أو الصورة، أو تغيّر الضوء. لا يُستنتج من هذه الصور شيء آخر؛ أعد القياس.</translation>
     </message>
+    <message>
+        <source>The camera sees hardly any light of the projector</source>
+        <translation>لا تكاد الكاميرا ترى ضوءًا من جهاز العرض</translation>
+    </message>
+    <message>
+        <source>See that nothing covers the lens or the picture. What is photographed meanwhile is lost: stop, and measure again.</source>
+        <translation>تأكد من أن لا شيء يغطي العدسة أو الصورة. ما يُصوَّر في هذه الأثناء ضائع: أوقف القياس ثم أعده.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -7298,6 +7306,14 @@ projector %2</source>
     <message>
         <source>Steps that are out of date count with what was chosen there before.</source>
         <translation>الخطوات القديمة تُحتسب بما اختير فيها من قبل.</translation>
+    </message>
+    <message>
+        <source>The test patterns fit, the photograph does not</source>
+        <translation>أنماط الاختبار متطابقة، والصورة لا</translation>
+    </message>
+    <message>
+        <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
+        <translation>قد تفوّت الأنماط القليلة جزءًا صغيرًا. إذا اختلفت صورة أخرى أيضًا، فإن الإصلاح يتفحص عن قرب.</translation>
     </message>
 </context>
 <context>

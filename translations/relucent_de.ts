@@ -5533,6 +5533,14 @@
         <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
         <translation>Weiß weicht um %1 von seinen Farben ab, und Stufen um bis zu %2 von ihrer Kurve: Das bewirkt kein Bildmodus. Etwas verdeckte das Objektiv oder das Bild, oder das Licht änderte sich. Sonst lässt sich aus diesen Fotos nichts ablesen; noch einmal messen.</translation>
     </message>
+    <message>
+        <source>The camera sees hardly any light of the projector</source>
+        <translation>Die Kamera sieht kaum Licht vom Projektor</translation>
+    </message>
+    <message>
+        <source>See that nothing covers the lens or the picture. What is photographed meanwhile is lost: stop, and measure again.</source>
+        <translation>Dafür sorgen, dass nichts das Objektiv oder das Bild verdeckt. Was inzwischen fotografiert wird, ist verloren: anhalten und noch einmal messen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -7154,6 +7162,14 @@ Projektor %2</translation>
     <message>
         <source>Steps that are out of date count with what was chosen there before.</source>
         <translation>Veraltete Schritte gelten so, wie sie zuvor gewählt wurden.</translation>
+    </message>
+    <message>
+        <source>The test patterns fit, the photograph does not</source>
+        <translation>Die Testmuster passen, das Foto nicht</translation>
+    </message>
+    <message>
+        <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
+        <translation>Wenigen Mustern kann ein kleiner Teil entgehen. Weicht auch ein weiteres Foto ab, sieht eine Reparatur genauer hin.</translation>
     </message>
 </context>
 <context>

@@ -5533,6 +5533,14 @@
         <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
         <translation>El blanco difiere en %1 de sus colores, y los niveles hasta en %2 de su curva: ningún modo de imagen causa eso. Algo tapaba el objetivo o la imagen, o cambió la luz. De estas fotografías no se deduce nada más; mida de nuevo.</translation>
     </message>
+    <message>
+        <source>The camera sees hardly any light of the projector</source>
+        <translation>La cámara apenas ve luz del proyector</translation>
+    </message>
+    <message>
+        <source>See that nothing covers the lens or the picture. What is photographed meanwhile is lost: stop, and measure again.</source>
+        <translation>Compruebe que nada tape el objetivo ni la imagen. Lo que se fotografíe mientras tanto se pierde: detenga y mida de nuevo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -7154,6 +7162,14 @@ proyector %2</translation>
     <message>
         <source>Steps that are out of date count with what was chosen there before.</source>
         <translation>Los pasos desactualizados cuentan con lo que se eligió antes en ellos.</translation>
+    </message>
+    <message>
+        <source>The test patterns fit, the photograph does not</source>
+        <translation>Los patrones de prueba encajan, la fotografía no</translation>
+    </message>
+    <message>
+        <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
+        <translation>Pocos patrones pueden pasar por alto una parte pequeña. Si otra fotografía también difiere, una reparación mira más de cerca.</translation>
     </message>
 </context>
 <context>

@@ -5533,6 +5533,14 @@
         <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
         <translation>Le blanc diffère de %1 de ses couleurs, et des niveaux jusqu’à %2 de leur courbe : aucun mode d’image ne fait cela. Quelque chose masquait l’objectif ou l’image, ou la lumière a changé. On ne peut rien déduire d’autre de ces photos ; mesurez de nouveau.</translation>
     </message>
+    <message>
+        <source>The camera sees hardly any light of the projector</source>
+        <translation>La caméra ne voit presque aucune lumière du projecteur</translation>
+    </message>
+    <message>
+        <source>See that nothing covers the lens or the picture. What is photographed meanwhile is lost: stop, and measure again.</source>
+        <translation>Vérifiez que rien ne masque l’objectif ni l’image. Ce qui est photographié entre-temps est perdu : arrêtez, puis mesurez de nouveau.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -7155,6 +7163,14 @@ projecteur %2</translation>
         <source>Steps that are out of date count with what was chosen there before.</source>
         <translation>Les étapes périmées comptent avec ce qui y avait été choisi.</translation>
     </message>
+    <message>
+        <source>The test patterns fit, the photograph does not</source>
+        <translation>Les motifs d’essai concordent, la photo non</translation>
+    </message>
+    <message>
+        <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
+        <translation>Peu de motifs peuvent manquer une petite partie. Si une autre photo diffère aussi, une réparation y regarde de plus près.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7303,7 +7319,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Elle a été perfectionnée pour une mesure antérieure, pour une autre variante, avec d’autres masques, ou placée autrement. Cela est conservé, mais ne sert plus : perfectionnez-la encore une fois.</translation>
+        <translation>Elle a été perfectionnée pour une mesure antérieure, pour une autre variante, avec d’autres masques, ou placée autrement. Cela est conservé, mais ne sert plus&#xa0;: perfectionnez-la encore une fois.</translation>
     </message>
 </context>
 <context>

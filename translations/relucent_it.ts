@@ -5533,6 +5533,14 @@
         <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
         <translation>Il bianco differisce del %1 dai suoi colori, e i livelli fino al %2 dalla loro curva: nessuna modalità d’immagine fa questo. Qualcosa copriva l’obiettivo o l’immagine, oppure la luce è cambiata. Da queste fotografie non si ricava altro; misurare di nuovo.</translation>
     </message>
+    <message>
+        <source>The camera sees hardly any light of the projector</source>
+        <translation>La fotocamera non vede quasi luce dal proiettore</translation>
+    </message>
+    <message>
+        <source>See that nothing covers the lens or the picture. What is photographed meanwhile is lost: stop, and measure again.</source>
+        <translation>Controllare che nulla copra l’obiettivo o l’immagine. Ciò che viene fotografato nel frattempo è perso: fermare e misurare di nuovo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -7154,6 +7162,14 @@ proiettore %2</translation>
     <message>
         <source>Steps that are out of date count with what was chosen there before.</source>
         <translation>I passi non aggiornati valgono come scelti prima.</translation>
+    </message>
+    <message>
+        <source>The test patterns fit, the photograph does not</source>
+        <translation>I pattern di prova corrispondono, la foto no</translation>
+    </message>
+    <message>
+        <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
+        <translation>Pochi pattern possono non vedere una piccola parte. Se anche un’altra foto differisce, una riparazione guarda più da vicino.</translation>
     </message>
 </context>
 <context>

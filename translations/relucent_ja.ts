@@ -5501,6 +5501,14 @@
         <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
         <translation>白は各色の合計と %1、各レベルは曲線と最大 %2 ずれています。画質モードではこうはなりません。レンズまたは投影像が覆われたか、光が変わりました。これらの写真からほかのことは判断できません。測定し直してください。</translation>
     </message>
+    <message>
+        <source>The camera sees hardly any light of the projector</source>
+        <translation>カメラにプロジェクターの光がほとんど届いていません</translation>
+    </message>
+    <message>
+        <source>See that nothing covers the lens or the picture. What is photographed meanwhile is lost: stop, and measure again.</source>
+        <translation>レンズや投影像を覆うものがないことを確かめてください。その間の写真は使えません。停止して、測定し直してください。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -7118,6 +7126,14 @@ projector %2</source>
     <message>
         <source>Steps that are out of date count with what was chosen there before.</source>
         <translation>古くなった手順には、以前そこで選んだ内容が使われます。</translation>
+    </message>
+    <message>
+        <source>The test patterns fit, the photograph does not</source>
+        <translation>テストパターンは合っていますが、写真は合っていません</translation>
+    </message>
+    <message>
+        <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
+        <translation>少ないパターンでは小さな部分を見落とすことがあります。もう一度撮影しても違う場合は、修復でさらに詳しく調べます。</translation>
     </message>
 </context>
 <context>

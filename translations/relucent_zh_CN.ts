@@ -5501,6 +5501,14 @@
         <source>White differs by %1 from its colours, and levels by up to %2 from their curve: no picture mode does that. Something covered the lens or the picture, or the light changed. Nothing else is told from these photographs; measure again.</source>
         <translation>白色与各颜色之和相差 %1，各级与其曲线最多相差 %2：没有任何画面模式会造成这种情况。有东西遮住了镜头或画面，或者光线发生了变化。从这些照片无法得出其他结论；请重新测量。</translation>
     </message>
+    <message>
+        <source>The camera sees hardly any light of the projector</source>
+        <translation>相机几乎看不到投影机的光</translation>
+    </message>
+    <message>
+        <source>See that nothing covers the lens or the picture. What is photographed meanwhile is lost: stop, and measure again.</source>
+        <translation>请确认没有东西遮挡镜头或画面。此间拍摄的照片无效：请停止并重新测量。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -7118,6 +7126,14 @@ projector %2</source>
     <message>
         <source>Steps that are out of date count with what was chosen there before.</source>
         <translation>已过期的步骤按之前在那里选择的内容计算。</translation>
+    </message>
+    <message>
+        <source>The test patterns fit, the photograph does not</source>
+        <translation>测试图案相符，照片不符</translation>
+    </message>
+    <message>
+        <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
+        <translation>少量图案可能漏掉小的部分。如果再拍一张仍不相符，修复会更仔细地检查。</translation>
     </message>
 </context>
 <context>

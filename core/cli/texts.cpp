@@ -143,8 +143,10 @@ std::string textOf(const pipeline::ProveResult& result) {
   const auto patch = [](const pipeline::ProvedView& view) {
     return pipeline::changedPatch(view) > pipeline::plainPatch
                ? fmt::format(
-                     "A part of the surface looks otherwise than predicted, by a colour error of {:.1f}.\n",
-                     pipeline::changedPatch(view))
+                     "A part of the surface looks otherwise than predicted, by a colour error of {:.1f}: in "
+                     "the camera's picture {:.0f} % from the left, {:.0f} % from the top.\n",
+                     pipeline::changedPatch(view), 100.0 * pipeline::changedPlace(view)[0],
+                     100.0 * pipeline::changedPlace(view)[1])
                : "";
   };
   std::string others;

@@ -256,7 +256,8 @@ calibration::Json toJson(const ProveResult& result) {
                              {"delta_e_predicted", proved.predicted.deltaE},
                              {"delta_e_measured", proved.measured.deltaE},
                              {"surprise", proved.surprise},
-                             {"worst_patch", proved.worstPatch}};
+                             {"worst_patch", proved.worstPatch},
+                             {"worst_place", proved.worstPlace}};
   };
   auto movement = [](const sentinels::Movement& moved) {
     return calibration::Json{

@@ -22,12 +22,14 @@ calibration::Json toJson(const ProvedProjection& projection) {
   return {{"predicted", projection.predicted},
           {"measured", projection.measured},
           {"surprise", projection.surprise},
-          {"worst_patch", projection.worstPatch}};
+          {"worst_patch", projection.worstPatch},
+          {"worst_place", projection.worstPlace}};
 }
 ProvedProjection projectionFrom(const calibration::Json& json) {
+  // Records of earlier versions have no patch.
   return {json.at("predicted").get<PictureError>(), json.at("measured").get<PictureError>(),
-          json.at("surprise").get<double>(),
-          json.value("worst_patch", 0.0)};  // records of earlier versions have none
+          json.at("surprise").get<double>(), json.value("worst_patch", 0.0),
+          json.value("worst_place", std::array<double, 2>{})};
 }
 
 calibration::Json toJson(const sentinels::Movement& moved) {

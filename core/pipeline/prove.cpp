@@ -65,7 +65,7 @@ double surpriseOf(const CameraStack& measured, const CameraStack& predicted,
 }
 
 /// See ProvedProjection.
-double worstPatchOf(const CameraStack& measured, const CameraStack& predicted,
+void findWorstPatch(ProvedProjection& found, const CameraStack& measured, const CameraStack& predicted,
                     const compensation::Target& target, const Rasters& cameras, std::size_t camera) {
   const Size size = cameras.size(camera);
   const int side = std::max(leastPatch, size.width / patchesAcross);
@@ -96,10 +96,13 @@ double worstPatchOf(const CameraStack& measured, const CameraStack& predicted,
   }
   const image::Image apart = image::deltaEMap(image::viewed(seenPatches, target.white),
                                               image::viewed(expectedPatches, target.white), isSeen);
-  double worst = 0.0;
-  for (float value : apart.data())
-    if (!std::isnan(value)) worst = std::max(worst, static_cast<double>(value));
-  return worst;
+  for (std::size_t patch = 0; patch < patches.count(); ++patch) {
+    const auto value = static_cast<double>(apart.data()[patch]);
+    if (std::isnan(value) || value <= found.worstPatch) continue;
+    const Pixel place = pixelAt(patches, patch);
+    found.worstPatch = value;
+    found.worstPlace = {(place.x + 0.5) * side / size.width, (place.y + 0.5) * side / size.height};
+  }
 }
 
 /// A pixel that saturates every exposure is no measurement: it counts in neither figure.
@@ -179,7 +182,7 @@ Photographed photograph(photography::Photographer& photographer, const MeasuredC
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     PhotographedView& view = result.views.emplace_back();
     view.error.surprise = surpriseOf(frame.radiance, predicted.camera, target, cameras, camera);
-    view.error.worstPatch = worstPatchOf(frame.radiance, predicted.camera, target, cameras, camera);
+    findWorstPatch(view.error, frame.radiance, predicted.camera, target, cameras, camera);
     view.error.predicted = errorOf(compensation::errorIn(camera, predicted.camera, target, cameras));
     view.moved = aimOffset(image::imageFromStack(predicted.camera, cameras, camera),
                            image::imageFromStack(frame.radiance, cameras, camera),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -48,6 +49,9 @@ struct ProvedProjection {
   /// the mean light of a square of 1/24 of the camera picture's width: an object that was added, or paint, is
   /// nothing in the mean of all.
   double worstPatch = 0.0;
+  /// Where that is: its middle, from the left and from the top, shares of the camera's picture; 0, 0:
+  /// unknown.
+  std::array<double, 2> worstPlace{};
 };
 
 /// The same as another camera than the first sees it.
@@ -84,6 +88,10 @@ inline constexpr double plainShift = 0.6;
 inline constexpr double plainPatch = 7.0;
 /// What both photographs see of their worst patch: who passes by one is not in the other.
 double changedPatch(const ProvedView& view);
+/// Where the corrected picture's is, see ProvedProjection::worstPlace.
+inline const std::array<double, 2>& changedPlace(const ProvedView& view) {
+  return view.after.worstPlace;
+}
 
 /// In every view within twice of what was predicted, nowhere moved by more than plainShift, or too close
 /// to the wanted picture for anybody to see a difference (Delta E 00 of 1), and no patch of another look.

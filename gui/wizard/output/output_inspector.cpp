@@ -113,7 +113,24 @@ QString reasonOf(const OutputPage& page, const pipeline::ProvedView& figures) {
       "Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.");
 }
 
-void showProof(Remark& remark, const OutputPage& page) {
+/// Of the picture that is shown: then the photograph is of what it was before.
+bool wasPerfectedSince(OutputPage& page, const Proof& proof) {
+  const Perfecting& perfecting = page.perfecting();
+  if (!perfecting.known() || proof.picture.isEmpty() || proof.picture != perfecting.picture()) return false;
+  return QDateTime::fromString(QString::fromStdString(perfecting.known()->perfected), Qt::ISODate) >
+         proof.taken;
+}
+
+/// Where the part is that looks otherwise; nothing where nobody kept that.
+QString placeLine(const pipeline::ProvedView& view) {
+  const auto [x, y] = pipeline::changedPlace(view);
+  if (x <= 0.0) return {};
+  return OutputPage::tr("In the camera's picture it is %1 from the left and %2 from the top.")
+             .arg(percentText(x), percentText(y)) +
+         '\n';
+}
+
+void showProof(Remark& remark, OutputPage& page) {
   const Proof* proof = page.proof().proof().get();
   if (page.proof().work() == OutputProof::Work::photograph)
     return remark.show(Remark::Kind::watch, OutputPage::tr("A photograph is being taken."),
@@ -156,6 +173,8 @@ void showProof(Remark& remark, const OutputPage& page) {
   meaning += errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
              errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
              OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));
+  if (wasPerfectedSince(page, *proof))
+    meaning = OutputPage::tr("This picture was perfected after the photograph.") + '\n' + meaning;
   if (const QString views = viewsLine(*proof); !views.isEmpty()) meaning = views + '\n' + meaning;
   const std::optional<std::size_t> differs = pipeline::viewThatDiffers(proof->figures);
   if (proof->isAsPredicted() && isDoubted)
@@ -181,7 +200,7 @@ void showProof(Remark& remark, const OutputPage& page) {
     remark.show(Remark::Kind::warning,
                 OutputPage::tr("A part of the surface looks otherwise than predicted, by ΔE %1.")
                     .arg(decimalText(patch, 1)),
-                meaning);
+                placeLine(proof->figuresOf(*differs)) + meaning);
   else if (page.cameras() > 1)
     remark.show(Remark::Kind::warning,
                 OutputPage::tr("Camera %1 or a projector may have moved.").arg(*differs + 1), meaning);

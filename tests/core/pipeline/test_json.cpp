@@ -41,9 +41,9 @@ class TestJson : public QObject {
         toJson(result).dump(),
         std::string(
             R"({"method":"refined","before":{"psnr_predicted":20.0,"psnr_measured":19.5,)"
-            R"("delta_e_predicted":8.0,"delta_e_measured":8.5,"surprise":0.25,"worst_patch":1.5},"after":)"
+            R"("delta_e_predicted":8.0,"delta_e_measured":8.5,"surprise":0.25,"worst_patch":1.5,"worst_place":[0.0,0.0]},"after":)"
             R"({"psnr_predicted":30.0,"psnr_measured":29.5,"delta_e_predicted":2.0,)"
-            R"("delta_e_measured":2.5,"surprise":0.125,"worst_patch":3.0},"reachable":0.75,)"
+            R"("delta_e_measured":2.5,"surprise":0.125,"worst_patch":3.0,"worst_place":[0.0,0.0]},"reachable":0.75,)"
             R"("moved":{"x":0.5,"y":-1.25,"degrees":0.125,"explains":true},"exposures":8,)"
             R"("seconds":2.0,"files":["out/comparison.png"]})"));
   }

@@ -234,6 +234,11 @@ class TestPipeline : public QObject {
     const double patch = changedPatch(viewOf(result, 0));
     QVERIFY2((patch > plainPatch) == (radius > 0.0), qPrintable(QString::number(patch)));
     QVERIFY(radius == 0.0 || !isAsPredicted(result));
+    // The camera looks straight at the wall: what is painted in its middle is in the picture's.
+    const auto [x, y] = changedPlace(viewOf(result, 0));
+    if (radius > 0.0)
+      QVERIFY2(std::abs(x - 0.5) < 1.5 * radius && std::abs(y - 0.5) < 1.5 * radius,
+               qPrintable(QString("%1, %2").arg(x).arg(y)));
   }
 
   void proveRefusesWhatCannotBe() {

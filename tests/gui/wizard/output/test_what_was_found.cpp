@@ -47,9 +47,10 @@ class TestWhatWasFound : public QObject, private OutputOnVenue {
     page_->choose(screen("DUMMY1"));
     openOutput();
   }
-  QString driftRemark() {
+  QString driftRemark() { return remark("drift-remark"); }
+  QString remark(const char* name) {
     const std::unique_ptr<QWidget> inspector(outputInspector(*page_));
-    const auto* remark = inspector->findChild<QWidget*>("drift-remark");
+    const auto* remark = inspector->findChild<QWidget*>(name);
     if (remark->isHidden()) return {};
     QStringList texts;
     for (const QLabel* label : remark->findChildren<QLabel*>()) texts << label->text();
@@ -92,6 +93,22 @@ class TestWhatWasFound : public QObject, private OutputOnVenue {
     asked.front().front().value<FailureReport>().goOn->trigger();
     QVERIFY(!page_->proof().repairNote() && !page_->proof().drift());
     QVERIFY(driftRemark().isEmpty());
+  }
+
+  /// Law: a photograph from before a picture was perfected is no proof of it as it is shown since.
+  void aPictureThatWasPerfectedSinceIsSaid() {
+    openOutput();
+    photograph();
+    const QString since = OutputPage::tr("This picture was perfected after the photograph.");
+    QVERIFY(!remark("proof-remark").contains(since));
+    letASecondPass();
+    page_->perfect();
+    QTRY_VERIFY_WITH_TIMEOUT(!page_->perfecting().isRunning(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(page_->perfecting().known().has_value(), patience);
+    QVERIFY2(remark("proof-remark").contains(since), qPrintable(remark("proof-remark")));
+    letASecondPass();
+    photograph();
+    QVERIFY2(!remark("proof-remark").contains(since), qPrintable(remark("proof-remark")));
   }
 
   /// Law: a repair that finds nothing asks for a photograph; where that contradicts it, measuring again is

@@ -7315,6 +7315,14 @@ projector %2</source>
         <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
         <translation>قد تفوّت الأنماط القليلة جزءًا صغيرًا. إذا اختلفت صورة أخرى أيضًا، فإن الإصلاح يتفحص عن قرب.</translation>
     </message>
+    <message>
+        <source>This picture was perfected after the photograph.</source>
+        <translation>حُسِّنت هذه الصورة بعد التقاط الصورة الفوتوغرافية.</translation>
+    </message>
+    <message>
+        <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
+        <translation>يقع في صورة الكاميرا على بُعد %1 من اليسار و%2 من الأعلى.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

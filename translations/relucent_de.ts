@@ -7171,6 +7171,14 @@ Projektor %2</translation>
         <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
         <translation>Wenigen Mustern kann ein kleiner Teil entgehen. Weicht auch ein weiteres Foto ab, sieht eine Reparatur genauer hin.</translation>
     </message>
+    <message>
+        <source>This picture was perfected after the photograph.</source>
+        <translation>Dieses Bild wurde nach dem Foto perfektioniert.</translation>
+    </message>
+    <message>
+        <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
+        <translation>Im Kamerabild liegt er bei %1 von links und %2 von oben.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

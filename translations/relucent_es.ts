@@ -7171,6 +7171,14 @@ proyector %2</translation>
         <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
         <translation>Pocos patrones pueden pasar por alto una parte pequeña. Si otra fotografía también difiere, una reparación mira más de cerca.</translation>
     </message>
+    <message>
+        <source>This picture was perfected after the photograph.</source>
+        <translation>Esta imagen se perfeccionó después de la fotografía.</translation>
+    </message>
+    <message>
+        <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
+        <translation>En la imagen de la cámara está al %1 desde la izquierda y al %2 desde arriba.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -7171,6 +7171,14 @@ projecteur %2</translation>
         <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
         <translation>Peu de motifs peuvent manquer une petite partie. Si une autre photo diffère aussi, une réparation y regarde de plus près.</translation>
     </message>
+    <message>
+        <source>This picture was perfected after the photograph.</source>
+        <translation>Cette image a été perfectionnée après la photo.</translation>
+    </message>
+    <message>
+        <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
+        <translation>Dans l’image de la caméra, elle est à %1 de la gauche et %2 du haut.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -7171,6 +7171,14 @@ proiettore %2</translation>
         <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
         <translation>Pochi pattern possono non vedere una piccola parte. Se anche un’altra foto differisce, una riparazione guarda più da vicino.</translation>
     </message>
+    <message>
+        <source>This picture was perfected after the photograph.</source>
+        <translation>Questa immagine è stata perfezionata dopo la foto.</translation>
+    </message>
+    <message>
+        <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
+        <translation>Nell’immagine della fotocamera è al %1 da sinistra e al %2 dall’alto.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

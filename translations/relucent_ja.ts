@@ -7135,6 +7135,14 @@ projector %2</source>
         <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
         <translation>少ないパターンでは小さな部分を見落とすことがあります。もう一度撮影しても違う場合は、修復でさらに詳しく調べます。</translation>
     </message>
+    <message>
+        <source>This picture was perfected after the photograph.</source>
+        <translation>この画像は写真の撮影後に仕上げられました。</translation>
+    </message>
+    <message>
+        <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
+        <translation>カメラ画像の左から %1、上から %2 の位置です。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

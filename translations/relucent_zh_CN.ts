@@ -7135,6 +7135,14 @@ projector %2</source>
         <source>Few patterns can miss a small part. Where another photograph differs, too, a repair looks closer.</source>
         <translation>少量图案可能漏掉小的部分。如果再拍一张仍不相符，修复会更仔细地检查。</translation>
     </message>
+    <message>
+        <source>This picture was perfected after the photograph.</source>
+        <translation>这张图片在拍照之后经过了完善。</translation>
+    </message>
+    <message>
+        <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
+        <translation>它位于相机画面中距左侧 %1、距顶部 %2 处。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

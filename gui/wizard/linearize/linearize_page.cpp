@@ -76,7 +76,7 @@ StepStatus LinearizePage::status() const {
   switch (session_.progress(calibration::Stage::linearization)) {
     case calibration::StageProgress::done:
       if (result_ && !result_->additivityError.empty()) {
-        if (isSpoilt()) return {StepState::doubtful, tr("The photographs contradict each other")};
+        if (isSpoilt()) return {StepState::doubtful, tr("Measure again")};
         const QString worst = percentText(worstAdditivity());
         if (!addsUp()) return {StepState::doubtful, tr("Colours off by %1").arg(worst)};
         return {StepState::done, tr("Colours within %1").arg(worst)};

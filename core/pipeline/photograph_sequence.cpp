@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "relucent/base/median.h"
+
 namespace relucent::pipeline {
 namespace {
 
@@ -33,12 +35,6 @@ std::vector<double> intervals(const std::vector<TakenPhotograph>& photographs) {
   for (std::size_t i = 1; i < photographs.size(); ++i)
     seconds.push_back(std::difftime(*photographs[i].taken, *photographs[i - 1].taken));
   return seconds;
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// What the intervals say: names of photographs, empty if they say nothing.

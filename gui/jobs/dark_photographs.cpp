@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "relucent/base/median.h"
 #include "relucent/image/colour.h"
 
 namespace relucent::gui {
@@ -30,12 +31,6 @@ double meanOf(const image::Image& image, Value value) {
     count += 1.0;
   }
   return count > 0.0 ? sum / count : 0.0;
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -111,8 +111,7 @@ class TestWhatWasFound : public QObject, private OutputOnVenue {
     QVERIFY2(!remark("proof-remark").contains(since), qPrintable(remark("proof-remark")));
   }
 
-  /// Law: a repair that finds nothing asks for a photograph; where that contradicts it, measuring again is
-  /// what is left.
+  /// Law: a repair that finds nothing asks for a photograph, which settles what was found before.
   void aRepairThatFindsNothingIsPhotographed() {
     becomes(paint);
     openOutput();

@@ -12,6 +12,11 @@ add_library(relucent_options INTERFACE)
 target_compile_options(relucent_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align
   $<$<BOOL:${RELUCENT_WARNINGS_ARE_ERRORS}>:-Werror>)
+# A large source is compiled a tenth sooner where GCC does not tidy up before 600 MB, by up to 250 MB more; small ones
+# never reach that.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(relucent_options INTERFACE --param=ggc-min-heapsize=600000)
+endif()
 if(RELUCENT_SANITIZERS)
   target_compile_options(relucent_options INTERFACE
     -fsanitize=${RELUCENT_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -50,7 +55,7 @@ if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 # relucent_prelude(core HEADERS <algorithm> ... LIBRARIES lib ...): headers for relucent_reads_prelude.
-#   LIBRARIES  what defines the same macros as the libraries of the targets that will use it
+#   LIBRARIES  what they belong to, and what defines every macro that the libraries of its readers define
 function(relucent_prelude name)
   cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
   set(target relucent_${name}_prelude)
@@ -60,8 +65,8 @@ function(relucent_prelude name)
   target_precompile_headers(${target} PRIVATE ${ARG_HEADERS})
 endfunction()
 
-# Reads a prelude before every source of a target. Its directories too: where a compiler refuses what was read
-# before, it reads the headers themselves.
+# Reads a prelude before every source of a target. Its macros too, without which it would be refused, and its
+# directories: where a compiler refuses what was read before, it reads the headers themselves.
 function(relucent_reads_prelude target name)
   target_precompile_headers(${target} REUSE_FROM relucent_${name}_prelude)
   # Read so, the standard library's own inlined code is taken for ours by these, as a plain build shows.
@@ -69,6 +74,7 @@ function(relucent_reads_prelude target name)
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overread
       -Wno-stringop-overflow -Wno-maybe-uninitialized)
   endif()
+  target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:relucent_${name}_prelude,COMPILE_DEFINITIONS>)
   target_include_directories(${target} SYSTEM PRIVATE
     $<TARGET_PROPERTY:relucent_${name}_prelude,INCLUDE_DIRECTORIES>)
 endfunction()

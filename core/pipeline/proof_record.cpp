@@ -87,6 +87,11 @@ bool isOfShown(const ProofRecord& record, const calibration::CalibrationFolder& 
   return record.shownFrom.empty() || record.shownFrom == fingerprintOfShown(folder);
 }
 
+bool answers(const ProofRecord& proof, bool isOfShown, const DriftRecord& drift) {
+  return proof.measurement == drift.measurement && (isOfShown || isAsPredicted(proof.figures)) &&
+         drift.checked < proof.taken;
+}
+
 void saveProofRecord(const ProofRecord& record, const fs::path& folder) {
   calibration::Json json{{"taken", record.taken},
                          {"measurement", record.measurement},

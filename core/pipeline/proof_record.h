@@ -7,6 +7,7 @@
 
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/pipeline/content_settings.h"
+#include "relucent/pipeline/drift_record.h"
 #include "relucent/pipeline/prove.h"
 
 namespace relucent::pipeline {
@@ -36,6 +37,10 @@ std::string fingerprintOfShown(const calibration::CalibrationFolder& folder, con
 /// Whether the photograph was taken of what is shown now; records of earlier versions are taken at their
 /// word.
 bool isOfShown(const ProofRecord& record, const calibration::CalibrationFolder& folder);
+
+/// Whether a photograph answers what a check for drift found: it was taken later, of the same measurement,
+/// and is of what is shown now or was as predicted. Where camera and projector stand is not the content's.
+bool answers(const ProofRecord& proof, bool isOfShown, const DriftRecord& drift);
 
 /// Writes proof.json into a folder. Throws: Error{disk}.
 void saveProofRecord(const ProofRecord& record, const std::filesystem::path& folder);

@@ -116,6 +116,8 @@ void addJudgement(ReportVerification& verification, const fs::path& folder,
   const std::optional<pipeline::ProofRecord> record = pipeline::loadProofRecord(folder);
   if (!record) return;
   verification.taken = record->taken;
+  const bool isOwn = record->picture.starts_with(':');  // the wizard's
+  if (!isOwn) verification.picture = fs::path(record->picture).filename().string();
   verification.isOutOfDate =
       record->measurement != acquired.stored || !pipeline::isOfShown(*record, calibration);
   if (verification.isOutOfDate) return;
@@ -166,11 +168,16 @@ std::optional<ReportVerification> verificationIn(const calibration::CalibrationF
   }
 }
 
-/// The last check for drift of this measurement.
-std::optional<ReportDrift> driftIn(const fs::path& calibration, const calibration::StageResult& acquired) {
+/// The last check for drift of this measurement, unless a photograph has answered it since.
+std::optional<ReportDrift> driftIn(const calibration::CalibrationFolder& calibration,
+                                   const calibration::StageResult& acquired) {
   try {
-    const auto record = pipeline::loadDriftRecord(calibration / "verification");
+    const fs::path folder = calibration.path() / "verification";
+    const auto record = pipeline::loadDriftRecord(folder);
     if (!record || record->measurement != acquired.stored) return std::nullopt;
+    const auto proof = pipeline::loadProofRecord(folder);
+    if (proof && pipeline::answers(*proof, pipeline::isOfShown(*proof, calibration), *record))
+      return std::nullopt;
     return ReportDrift{record->verdict, record->error, record->errorThen, record->changedShare,
                        record->checked};
   } catch (const Error&) {
@@ -243,11 +250,10 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
     const auto found = calibration::resultFrom<calibration::Stage::acquisition>(*acquired);
     data.stoppedAt = found.stoppedAt;
     if (const auto& repair = found.repair)
-      data.repaired = {acquired->stored, repair->what, repair->deltaEBefore, repair->deltaEAfter};
+      data.repaired = {acquired->stored, repair->what, repair->deltaEBefore, repair->deltaEAfter,
+                       repair->cost};
     data.verification = verificationIn(folder, *acquired, transport.cameras().devices());
-    data.drift = driftIn(folder.path(), *acquired);
-    // What was found before the last photograph is answered by it.
-    if (data.drift && data.verification && data.drift->checked < data.verification->taken) data.drift.reset();
+    data.drift = driftIn(folder, *acquired);
   }
 
   data.perfected = perfectedIn(folder);

@@ -59,12 +59,26 @@ std::uint64_t atLeastNone(int count) {
   return static_cast<std::uint64_t>(std::max(0, count));
 }
 
+/// Of all steps, and of the last repair.
+calibration::StageCost costOf(const ReportData& data) {
+  const pipeline::CalibrateResult& result = data.result;
+  calibration::StageCost cost{
+      result.seconds.linearization + result.seconds.acquisition + result.seconds.inverse, result.patterns,
+      result.exposures};
+  if (data.repaired) {
+    cost.seconds += data.repaired->cost.seconds;
+    cost.patterns += data.repaired->cost.patterns;
+    cost.exposures += data.repaired->cost.exposures;
+  }
+  return cost;
+}
+
 Data cards(const ReportData& data) {
   const pipeline::CalibrateResult& result = data.result;
-  double seconds = result.seconds.linearization + result.seconds.acquisition + result.seconds.inverse;
+  const calibration::StageCost together = costOf(data);
   Data list(Data::type::list);
-  list << named("Photographs, all steps", grouped(atLeastNone(result.exposures)))
-       << named("Time, all steps", stageDuration(seconds))
+  list << named("Photographs, all steps", grouped(atLeastNone(together.exposures)))
+       << named("Time, all steps", stageDuration(together.seconds))
        << named("Connections of light", grouped(result.connections))
        << named("Unreliable pixels", percent(result.flaggedShare));
   if (data.evaluation) list << named("Can be reached", percent(data.evaluation->reachable));
@@ -328,20 +342,19 @@ void setSettingsAndTimes(Data& page, const ReportData& data) {
   const pipeline::CalibrateResult& result = data.result;
   Data costs(Data::type::list);
   // By the steps that measured them, each as its page in the program counts it.
-  const auto step = [](double seconds, int patterns, int exposures) {
-    return fmt::format("{}, {} patterns, {} photographs", stageDuration(seconds),
-                       grouped(atLeastNone(patterns)), grouped(atLeastNone(exposures)));
+  const auto step = [](const calibration::StageCost& cost) {
+    return fmt::format("{}, {} patterns, {} photographs", stageDuration(cost.seconds),
+                       grouped(atLeastNone(cost.patterns)), grouped(atLeastNone(cost.exposures)));
   };
-  costs << named(
-               "Colours and brightness (Linearize)",
-               step(result.seconds.linearization, data.linearizationPatterns, result.linearizationExposures))
+  costs << named("Colours and brightness (Linearize)",
+                 step({result.seconds.linearization, data.linearizationPatterns,
+                       result.linearizationExposures}))
         << named("Light transport (Acquire), with its checks and test patterns",
-                 step(result.seconds.acquisition, result.patterns - data.linearizationPatterns,
-                      result.exposures - result.linearizationExposures))
-        << named("Computing the correction", stageDuration(result.seconds.inverse))
-        << named("Together",
-                 step(result.seconds.linearization + result.seconds.acquisition + result.seconds.inverse,
-                      result.patterns, result.exposures));
+                 step({result.seconds.acquisition, result.patterns - data.linearizationPatterns,
+                       result.exposures - result.linearizationExposures}))
+        << named("Computing the correction", stageDuration(result.seconds.inverse));
+  if (data.repaired) costs << named("Repair", step(data.repaired->cost));
+  costs << named("Together", step(costOf(data)));
   // The wizard does not record it.
   if (result.peakMemoryBytes > 0)
     costs << named("Most memory used",

@@ -47,8 +47,9 @@ void addVerification(const ReportData& data, PageData& warnings, PageData& assur
         "anew since. Another one would prove it.",
         localTime(shown.taken)));
   if (!shown.isAsPredicted) return;
-  const std::string when = fmt::format("Photographed {}on {}", data.isSimulated ? "in the simulation " : "",
-                                       localTime(shown.taken));
+  const std::string when =
+      fmt::format("Photographed {}on {}{}", data.isSimulated ? "in the simulation " : "",
+                  localTime(shown.taken), shown.picture.empty() ? "" : ", " + shown.picture);
   const std::string change =
       fmt::format("The correction brings the mean colour error ΔE from {:.1f} to {:.1f}", shown.deltaEBefore,
                   shown.deltaEAfter);

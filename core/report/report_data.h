@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "relucent/acquisition/reverification.h"
+#include "relucent/calibration/stage_results.h"
 #include "relucent/compensation/ridge_choice.h"
 #include "relucent/compensation/uncorrectable.h"
 #include "relucent/image/image.h"
@@ -51,6 +52,7 @@ struct ReportVerification {
   std::optional<bool> isAsPredicted{};           // pipeline/prove.h
   std::vector<ReportVerificationView> others{};  // of cameras beyond the first, in their order
   std::optional<std::size_t> viewThatDiffers{};  // which camera does not see what was predicted, from 0 on
+  std::string picture{};     // its file's name; empty: nobody kept it, or the program's own
   bool isOutOfDate = false;  // it shows what was shown then: that was measured or chosen anew since
 };
 
@@ -74,6 +76,7 @@ struct ReportRepair {
   std::string when;  // ISO 8601
   std::vector<Message> what;
   double deltaEBefore = 0.0, deltaEAfter = 0.0;  // of a photographed picture
+  calibration::StageCost cost{};
 };
 
 /// Everything that a report shows. What is empty is left out.

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "relucent/image/exr.h"
-#include "relucent/pipeline/proof_record.h"
 
 namespace relucent::gui {
 namespace {
@@ -30,10 +29,17 @@ std::vector<ProofView> proofViews(const fs::path& folder, std::size_t cameras) {
   return views;
 }
 
+pipeline::ProofRecord recordOf(const Proof& proof) {
+  return {proof.taken.toUTC().toString(Qt::ISODate).toStdString(),
+          proof.measured,
+          proof.shownFrom,
+          proof.content,
+          proof.figures,
+          proof.picture.toStdString()};
+}
+
 void saveProof(const Proof& proof, const fs::path& folder) {
-  pipeline::saveProofRecord({proof.taken.toUTC().toString(Qt::ISODate).toStdString(), proof.measured,
-                             proof.shownFrom, proof.content, proof.figures, proof.picture.toStdString()},
-                            folder);
+  pipeline::saveProofRecord(recordOf(proof), folder);
 }
 
 std::shared_ptr<const Proof> loadProof(const fs::path& folder) {

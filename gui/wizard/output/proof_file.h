@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "relucent/pipeline/proof_record.h"
 #include "wizard/output/output_proof.h"
 
 namespace relucent::gui {
@@ -13,6 +14,9 @@ std::filesystem::path proofFolder(const std::filesystem::path& calibration);
 
 /// The pictures of so many cameras that lie there. Throws: Error{disk, format}.
 std::vector<ProofView> proofViews(const std::filesystem::path& folder, std::size_t cameras);
+
+/// What is kept of it beside the pictures.
+pipeline::ProofRecord recordOf(const Proof& proof);
 
 /// Keeps figures, time and what they were taken of beside the pictures, as proof.json.  Throws: Error{disk}.
 void saveProof(const Proof& proof, const std::filesystem::path& folder);

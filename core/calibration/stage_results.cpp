@@ -31,6 +31,17 @@ Json toJson(const ImportScore& score) {
   return {{"one_to_one", score.oneToOne}, {"mix", score.mix}, {"transport", score.transport}};
 }
 
+Json toJson(const ContentResult& predicted) {
+  return {{"reachable", predicted.reachable}, {"delta_e", predicted.deltaE}};
+}
+
+ContentResult contentFrom(const Json& values) {
+  ContentResult predicted;
+  take(values, "reachable", predicted.reachable);
+  take(values, "delta_e", predicted.deltaE);
+  return predicted;
+}
+
 StageResult storeCurrent(CalibrationFolder& folder, Stage stage, Json values) {
   return folder.store(stage, fingerprintOf(folder, stage), std::move(values));
 }
@@ -69,6 +80,8 @@ Json toJson(const RepairNote& repair) {
     json["content_before"] = Json::parse(repair.contentBefore);
     json["content_after"] = Json::parse(repair.contentAfter);
   }
+  if (repair.predictedBefore) json["predicted_before"] = toJson(*repair.predictedBefore);
+  if (repair.predictedAfter) json["predicted_after"] = toJson(*repair.predictedAfter);
   return json;
 }
 
@@ -87,6 +100,9 @@ std::optional<RepairNote> repairFrom(const Json& values) {
     repair.contentBefore = stored.at("content_before").dump();
     repair.contentAfter = stored.at("content_after").dump();
   }
+  if (stored.contains("predicted_before"))
+    repair.predictedBefore = contentFrom(stored.at("predicted_before"));
+  if (stored.contains("predicted_after")) repair.predictedAfter = contentFrom(stored.at("predicted_after"));
   return repair;
 }
 
@@ -160,7 +176,7 @@ StageResult storeDecision(CalibrationFolder& folder, const ClusteringResult& res
 }
 
 StageResult storeDecision(CalibrationFolder& folder, const ContentResult& result) {
-  return storeCurrent(folder, Stage::content, {{"reachable", result.reachable}, {"delta_e", result.deltaE}});
+  return storeCurrent(folder, Stage::content, toJson(result));
 }
 
 void read(const StageResult& stored, CameraCheckResult& result) {
@@ -226,10 +242,7 @@ void read(const StageResult& stored, ClusteringResult& result) {
 }
 
 void read(const StageResult& stored, ContentResult& result) {
-  readingJson(stored, [&](const Json& values) {
-    take(values, "reachable", result.reachable);
-    take(values, "delta_e", result.deltaE);
-  });
+  readingJson(stored, [&](const Json& values) { result = contentFrom(values); });
 }
 
 StageResults resultsIn(const CalibrationFolder& folder) {

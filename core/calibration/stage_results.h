@@ -47,6 +47,12 @@ struct LinearizationResult {
   std::optional<StageCost> cost;
 };
 
+struct ContentResult {
+  double reachable = 0.0;  // share of the content's camera pixels
+  double deltaE = 0.0;     // mean CIEDE2000, predicted
+  bool operator==(const ContentResult&) const = default;
+};
+
 /// That a measurement was made to fit what the venue had become, and of what.
 struct RepairNote {
   std::string of;             // name of the folder of the result that it was made from, which stays
@@ -59,6 +65,8 @@ struct RepairNote {
   /// What of the settings says where content stands, as it was and as it went with the cameras' views: JSON,
   /// sections of the manifest's settings. Empty, or of earlier versions: it stayed.
   std::string contentBefore{}, contentAfter{};
+  /// What was predicted of the content, and is by this one. None: nobody had placed it.
+  std::optional<ContentResult> predictedBefore{}, predictedAfter{};
 };
 
 /// The light transport itself: loadAcquisition().
@@ -101,11 +109,6 @@ struct ClusteringResult {
   std::uint64_t clusters = 0;
   std::uint32_t largest = 0;  // projector pixels
   double errorMedian = 0.0;   // relative RMS error of rows
-};
-
-struct ContentResult {
-  double reachable = 0.0;  // share of the content's camera pixels
-  double deltaE = 0.0;     // mean CIEDE2000, predicted
 };
 
 }  // namespace relucent::calibration

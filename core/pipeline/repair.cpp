@@ -184,13 +184,19 @@ class Repairing {
       Progress proving = progress.part(
           0.2, RELUCENT_MESSAGE("stage.photographing-projections", "Photographing the projections"));
       const MeasuredCalibration now = renewed(renewal.acquisition, proving);
-      const calibration::ContentResult predicted = prove(now, result, proving);
+      calibration::ContentResult predicted = prove(now, result, proving);
       result.end = isBetter(result) ? RepairEnd::repaired : RepairEnd::notBetter;
       result.seconds = watch.seconds();
       if (result.end == RepairEnd::repaired) {
         Progress writing =
             progress.part(0.05, RELUCENT_MESSAGE("stage.writing-results", "Writing the results"));
         writing.report(0.0);
+        // What is kept of the content is of its own picture, whichever was photographed.
+        if (!settings_.image.empty()) {
+          const compensation::Target own =
+              targetOfNow(provedPicture({}, chosen_.content), now, result.change);
+          predicted = predictedOf(now, own, solved(now, own, writing));
+        }
         commit(renewal.acquisition, now, result, predicted);
       }
     }
@@ -231,23 +237,39 @@ class Repairing {
     return movedContent(content, aspect, measured_.venue, now.venue, change.moved);
   }
 
+  /// A picture as it is wanted where it stood, under the light of now.
+  compensation::Target targetOfNow(const image::Image& picture, const MeasuredCalibration& now,
+                                   const acquisition::VenueChange& change) const {
+    return fitTarget(picture, now.venue, targetOf(moved(chosen_.content, picture, now, change)));
+  }
+
+  compensation::Compensation solved(const MeasuredCalibration& by, const compensation::Target& target,
+                                    Progress& progress) const {
+    compensation::CompensatorSettings solver;
+    solver.clustering = chosen_.clustering;
+    Progress solving = progress.part(0.2, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
+    solving.report(0.0);
+    return compensation::Compensator(by.venue, by.inverse, solver)
+        .solve(chosen_.content.method, target, solving);
+  }
+
+  static calibration::ContentResult predictedOf(const MeasuredCalibration& now,
+                                                const compensation::Target& target,
+                                                const compensation::Compensation& picture) {
+    const compensation::Prediction predicted = compensation::predict(now.venue, target, picture);
+    return {predicted.reachable, predicted.meanDeltaE};
+  }
+
   /// The same picture as a show has it by the former T and by the new one, both photographed and compared
   /// with what can be wanted, where it stood, under the light of now. Returns what is predicted of it.
   calibration::ContentResult prove(const MeasuredCalibration& now, RepairResult& result, Progress& progress) {
     const image::Image content = provedPicture(settings_, chosen_.content);
-    compensation::CompensatorSettings solver;
-    solver.clustering = chosen_.clustering;
-    const auto solved = [&](const MeasuredCalibration& by, const compensation::Target& target) {
-      Progress solving = progress.part(0.2, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
-      solving.report(0.0);
-      return compensation::Compensator(by.venue, by.inverse, solver)
-          .solve(chosen_.content.method, target, solving);
-    };
-    const compensation::Target target =
-        fitTarget(content, now.venue, targetOf(moved(chosen_.content, content, now, result.change)));
-    const compensation::Compensation renewedPicture = solved(now, target),
-                                     former = solved(measured_, fitTarget(content, measured_.venue,
-                                                                          targetOf(chosen_.content)));
+    const compensation::Target target = targetOfNow(content, now, result.change);
+    const compensation::Compensation renewedPicture = solved(now, target, progress),
+                                     former = solved(
+                                         measured_,
+                                         fitTarget(content, measured_.venue, targetOf(chosen_.content)),
+                                         progress);
     ProjectionPhotographs photographs(source_.whole(), now, "repair-proof");
     const Rasters& cameras = now.venue.transport.cameras();
     const auto seen = [&](const compensation::Compensation& picture) {
@@ -263,8 +285,7 @@ class Repairing {
     result.after = seen(renewedPicture);
     result.exposures += photographs.exposures();
     result.photographing += secondsOfDevices(photographs.times());
-    const compensation::Prediction predicted = compensation::predict(now.venue, target, renewedPicture);
-    return {predicted.reachable, predicted.meanDeltaE};
+    return predictedOf(now, target, renewedPicture);
   }
 
   void commit(const transport::Acquisition& renewed, const MeasuredCalibration& now,
@@ -292,12 +313,15 @@ class Repairing {
     note.contentAfter = contentSections(folder, [&](const ContentSettings& content) {
       return moved(content, provedPicture({}, content), now, result.change);
     });
-    const bool wasDecided =
-        calibration::progressOf(folder, Stage::content) != calibration::StageProgress::open;
+    const auto decided = calibration::resultOf(folder, Stage::content);
+    if (decided) {
+      note.predictedBefore = calibration::resultFrom<Stage::content>(*decided);
+      note.predictedAfter = predicted;
+    }
     calibration::storeAcquisition(folder, inputs_, renewed, cost_, note);
     keepWindows(folder, now.venue, windows(), now.inverse);
     // Somebody placed it, and it stands there: nobody has to look at it for that.
-    if (wasDecided) calibration::storeDecision(folder, predicted);
+    if (decided) calibration::storeDecision(folder, predicted);
   }
 
   fs::path path_;
@@ -341,7 +365,12 @@ UndoneRepair undoRepair(const fs::path& path) {
                 RELUCENT_ENGLISH_MESSAGE("repair.former-removed-advice",
                                          "go on with the repaired one, or measure the venue again"),
                 path.string());
+  const auto content = calibration::resultOf(folder, Stage::content);
   calibration::setRepairAside(folder, *repair);
+  // Nobody has placed it since.
+  if (content && repair->predictedBefore &&
+      calibration::resultFrom<Stage::content>(*content) == repair->predictedAfter)
+    calibration::storeDecision(folder, *repair->predictedBefore);
   const auto former = calibration::currentResultOf(folder, Stage::acquisition);
   return {former ? former->stored : std::string()};
 }

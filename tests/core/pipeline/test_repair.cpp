@@ -12,6 +12,7 @@
 #include "relucent/calibration/leftovers.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
+#include "relucent/image/exr.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/evaluate.h"
@@ -107,10 +108,16 @@ class TestRepair : public QObject {
     return quality;
   }
 
-  RepairResult repairedAs(const fs::path& folder, const std::string& venue, const Changes& changes) {
+  RepairResult repairedAs(const fs::path& folder, const std::string& venue, const Changes& changes,
+                          const fs::path& picture = {}) {
     RepairSettings settings;
+    settings.image = picture;
     settings.rig = venueNamed(venue, changes);
     return repairCalibration(folder, settings, cache(), quiet);
+  }
+  static ContentResult predictedIn(const fs::path& folder) {
+    const CalibrationFolder reading = CalibrationFolder::open(folder, CalibrationFolder::Access::read);
+    return resultFrom<Stage::content>(*resultOf(reading, Stage::content));
   }
   static std::string correctionOf(const fs::path& folder) {
     return fingerprintOfCorrection(CalibrationFolder::open(folder, CalibrationFolder::Access::read));
@@ -295,6 +302,27 @@ class TestRepair : public QObject {
     }
     undoRepair(folder);
     QVERIFY(settingsIn() == before);
+    QVERIFY(predictedIn(folder) == (ContentResult{0.9, 2.0}));
+  }
+
+  /// Law: what is kept of the content is of its own picture, whichever was photographed.
+  void whatIsPredictedIsOfTheContent() {
+    const fs::path picture = root() / "pale.exr";
+    image::Image pale({16, 12}, 3);
+    std::ranges::fill(pale.data(), 0.2f);
+    image::writeExr(picture, pale, image::ExrType::half);
+    std::vector<ContentResult> predicted;
+    for (const fs::path& photographed : {fs::path(), picture}) {
+      const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "predicted");
+      {
+        CalibrationFolder writing = CalibrationFolder::open(folder, CalibrationFolder::Access::write);
+        storeDecision(writing, ContentResult{0.9, 2.0});
+      }
+      QCOMPARE(repairedAs(folder, "corner", changesNamed("painted"), photographed).end, RepairEnd::repaired);
+      predicted.push_back(predictedIn(folder));
+    }
+    QVERIFY(predicted.front().reachable != 0.9);
+    QVERIFY(predicted.front() == predicted.back());  // cameras' noise is theirs, not the calibration's
   }
 
   /// Whoever changes it after the repair does not lose that by going back.

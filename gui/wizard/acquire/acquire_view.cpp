@@ -228,7 +228,7 @@ PageView viewOf(AcquirePage& model) {
   QObject::connect(&model, &AcquirePage::nudgeWanted, view.stage, [&model, stage = view.stage] {
     showNudge(
         *stage, std::make_unique<Nudge>(model.session(), model.viewBefore()),
-        [&model](const std::optional<NudgeSight>& last) { model.askAgain(last && last->isAtItsPlace()); });
+        [&model](const Nudge& nudge) { model.askAgain(nudge.sight() && nudge.sight()->isAtItsPlace()); });
   });
   return view;
 }

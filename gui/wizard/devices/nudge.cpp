@@ -159,6 +159,7 @@ void Nudge::takeSight() {
     shared_->posted = false;
     sight_ = shared_->sight;
   }
+  wasElsewhere_ = wasElsewhere_ || (sight_ && sight_->isElsewhere());
   Q_EMIT changed();
 }
 

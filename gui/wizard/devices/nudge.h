@@ -52,6 +52,8 @@ class Nudge : public QObject {
   const image::Image& expected() const { return expected_; }
   /// What was seen last; none before the first look, while a device is lost, and once one has failed.
   const std::optional<NudgeSight>& sight() const { return sight_; }
+  /// The camera was seen to look elsewhere, before that perhaps.
+  bool wasElsewhere() const { return wasElsewhere_; }
   /// The device that it waits for; none: it waits for none.
   std::optional<Banner> waiting() const { return lostDeviceBanner(session_, nullptr); }
   /// Nobody can push a simulated camera.
@@ -77,6 +79,7 @@ class Nudge : public QObject {
   image::Image expected_;
   std::shared_ptr<Shared> shared_;
   std::optional<NudgeSight> sight_;
+  bool wasElsewhere_ = false;
   std::optional<Failure> failure_;
   bool wanted_ = false;
 };

@@ -183,8 +183,7 @@ void NudgeDialog::showVerdict() {
            "changed."));
 }
 
-void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge,
-               const std::function<void(const std::optional<NudgeSight>&)>& done) {
+void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge, const std::function<void(const Nudge&)>& done) {
   // Another language has replaced that window, and the new one is asked as well.
   if (!above.window()->isVisible()) return;
   Nudge* looking = nudge.release();
@@ -194,7 +193,7 @@ void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge,
   dialog->setWindowModality(Qt::WindowModal);
   // A desktop may give the keyboard to what plays on the projector instead.
   QObject::connect(dialog, &QDialog::finished, looking, [looking, done, whole = QPointer(above.window())] {
-    done(looking->sight());
+    done(*looking);
     if (whole) whole->activateWindow();
   });
   looking->start();

@@ -36,9 +36,7 @@ class NudgeDialog : public QDialog {
 };
 
 /// Begins to look, in a dialog before the window of `above`. `done` comes when that is closed and the devices
-/// are free, with what the camera saw last, if anything. Nothing happens
-/// before a window that is not shown.
-void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge,
-               const std::function<void(const std::optional<NudgeSight>&)>& done);
+/// are free. Nothing happens before a window that is not shown.
+void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge, const std::function<void(const Nudge&)>& done);
 
 }  // namespace relucent::gui

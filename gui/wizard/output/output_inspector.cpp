@@ -148,6 +148,10 @@ void showProof(Remark& remark, OutputPage& page) {
         OutputPage::tr("It was left %1 px from where it looked when it was measured. Put it back, or "
                        "repair the calibration.")
             .arg(decimalText(*pixels, 1)));
+  if (page.proof().wasPushedBack())
+    return remark.show(
+        Remark::Kind::watch, OutputPage::tr("The camera is back at its place"),
+        OutputPage::tr("What was found before that holds no more. Take a verification photograph."));
   if (page.proof().isOutOfDate())
     return remark.show(
         Remark::Kind::warning, OutputPage::tr("The photograph is out of date"),
@@ -157,9 +161,6 @@ void showProof(Remark& remark, OutputPage& page) {
   if (proof == nullptr)
     return remark.show(Remark::Kind::watch, OutputPage::tr("Not photographed yet"),
                        OutputPage::tr("One photograph shows whether the surface looks as predicted."));
-  if (page.proof().wasPushedBack())
-    return remark.show(Remark::Kind::watch, OutputPage::tr("The camera is back at its place"),
-                       OutputPage::tr("Take the photograph again: the last one was taken before."));
   const pipeline::ProvedView figures = proof->figuresOf(page.camera());
   const pipeline::DriftRecord* drift = page.proof().newestDrift();
   const bool isDoubted = drift != nullptr && drift->verdict != acquisition::Verdict::stillGood;
@@ -307,7 +308,7 @@ QWidget* proofPart(OutputPage& page) {
   QObject::connect(push, &QPushButton::clicked, &page, &OutputPage::pushBack);
   QObject::connect(&page, &OutputPage::nudgeWanted, part, [part, &page] {
     showNudge(*part, std::make_unique<Nudge>(page.session(), OutputPage::stepName),
-              [&page](const std::optional<NudgeSight>& last) { page.pushedBack(last); });
+              [&page](const Nudge& nudge) { page.pushedBack(nudge.sight(), nudge.wasElsewhere()); });
   });
   auto refresh = [=, &page] {
     showProof(*found, page);

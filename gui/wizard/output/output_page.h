@@ -149,7 +149,8 @@ class OutputPage : public DevicePage {
   /// Shows full light and looks, until pushedBack(): nudgeWanted() asks for what shows that.
   void pushBack();
   /// What the devices were looked at with is gone. `last`: seen before that; none: nothing was.
-  void pushedBack(const std::optional<NudgeSight>& last);
+  /// `wasElsewhere`: it was seen to look elsewhere, too.
+  void pushedBack(const std::optional<NudgeSight>& last, bool wasElsewhere);
   /// Writes the report and lets the desktop show it.
   void report();
   /// Where it is; empty: not written since the calibration was opened.

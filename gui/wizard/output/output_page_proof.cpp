@@ -112,8 +112,8 @@ void OutputPage::pushBack() {
   whileClosed([this] { Q_EMIT nudgeWanted(); });
 }
 
-void OutputPage::pushedBack(const std::optional<NudgeSight>& last) {
-  if (last && last->isAtItsPlace()) proof_.cameraPushedBack();
+void OutputPage::pushedBack(const std::optional<NudgeSight>& last, bool wasElsewhere) {
+  if (last && last->isAtItsPlace()) proof_.cameraAtItsPlace(wasElsewhere);
   if (last && last->isElsewhere()) proof_.cameraLeft(last->distance());
   proofEnded();
 }

@@ -125,15 +125,8 @@ void OutputProof::look() {
 }
 
 const pipeline::DriftRecord* OutputProof::newestDrift() const {
-  if (!drift_) return nullptr;
-  const QDateTime checked = timeOf(*drift_);
-  // Than a photograph of this measurement: one of a repair from which somebody went back says nothing of it.
-  // What looked as predicted then stands where it stood, whatever is shown since, another set or other
-  // content.
-  const bool isOfThis = proof_ && proof_->measured == measurementOf(session_);
-  const bool isOlder = isOfThis && (!isOutOfDate() || proof_->isAsPredicted()) &&
-                       checked.toSecsSinceEpoch() < proof_->taken.toSecsSinceEpoch();
-  return isOlder ? nullptr : &*drift_;
+  const bool isAnswered = drift_ && proof_ && pipeline::answers(recordOf(*proof_), !isOutOfDate(), *drift_);
+  return drift_ && !isAnswered ? &*drift_ : nullptr;
 }
 
 OutputProof::Next OutputProof::next() const {
@@ -143,9 +136,7 @@ OutputProof::Next OutputProof::next() const {
   const pipeline::DriftRecord* drift = newestDrift();
   if (drift != nullptr && drift->verdict == Verdict::startAgain) return Next::aimAgain;
   const Proof* proof = current();
-  // What is pushed back is the first camera.
-  const bool isMoved = proof != nullptr && proof->figures.moved.explains &&
-                       pipeline::viewThatDiffers(proof->figures) == std::size_t{0};
+  const bool isMoved = proof != nullptr && showsItMoved(*proof);
   if (drift != nullptr && drift->verdict == Verdict::remeasure)
     return isMoved ? Next::pushBack : isBeyondRepair() ? Next::measureAgain : Next::repair;
   if (proof == nullptr) return Next::photograph;
@@ -158,6 +149,10 @@ OutputProof::Next OutputProof::next() const {
   if (isMoved) return Next::pushBack;
   if (wasRepairInVain && isShortlyBefore(repairTried_, proof->taken)) return Next::measureAgain;
   return isCheckContradicted() ? Next::repair : Next::checkDrift;
+}
+
+bool OutputProof::showsItMoved(const Proof& proof) {
+  return proof.figures.moved.explains && pipeline::viewThatDiffers(proof.figures) == std::size_t{0};
 }
 
 bool OutputProof::isCheckContradicted() const {
@@ -181,8 +176,11 @@ std::optional<double> OutputProof::leftElsewhere() const {
   return leftBy_ == measurementOf(session_) ? leftElsewhere_ : std::nullopt;
 }
 
-void OutputProof::cameraPushedBack() {
+void OutputProof::cameraAtItsPlace(bool wasSeenElsewhere) {
   const bool wasLeft = std::exchange(leftElsewhere_, std::nullopt).has_value();
+  // One that never moved explains nothing of what was found.
+  const bool wasElsewhere = wasSeenElsewhere || wasLeft || (current() != nullptr && showsItMoved(*current()));
+  if (!wasElsewhere) return;
   pushedBack_ = (current() != nullptr && !current()->isAsPredicted()) ||
                 (drift_ && drift_->verdict != acquisition::Verdict::stillGood);
   const bool wasInVain = isBeyondRepair();

@@ -84,9 +84,10 @@ class OutputProof : public QObject {
   /// What is to be done next to prove the venue, or about what was found.
   enum class Next { photograph, install, pushBack, checkDrift, repair, measureAgain, aimAgain };
   Next next() const;
-  /// Where it looks as it did, the camera was pushed back: what was found before that holds no more.
-  void cameraPushedBack();
-  /// It was, since the last photograph.
+  /// Where it looked elsewhere before, as somebody saw or the last photograph showed, the camera was pushed
+  /// back: what was found before that holds no more.
+  void cameraAtItsPlace(bool wasSeenElsewhere);
+  /// It was pushed back, since the last photograph.
   bool wasPushedBack() const { return pushedBack_; }
   /// It was seen to look so many pixels elsewhere, and left there.
   void cameraLeft(double pixels);
@@ -125,6 +126,8 @@ class OutputProof : public QObject {
   bool holds(const Proof& proof) const;
   const Proof* current() const { return proof_ && holds(*proof_) ? proof_.get() : nullptr; }
   void look();
+  /// The photograph shows that the camera was bumped which can be pushed back, the first.
+  static bool showsItMoved(const Proof& proof);
 
   Session& session_;
   StepName step_;

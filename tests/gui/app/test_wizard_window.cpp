@@ -951,12 +951,12 @@ class TestWizardWindow : public QObject {
     NudgeSight seen;
     seen.offset.isRecognised = true;
     seen.offset.movement.x = 2.0;
-    output.pushedBack(seen);
+    output.pushedBack(seen, true);
     QCOMPARE(output.primary()->text(), OutputPage::tr("Put the camera back"));
     QVERIFY(output.status().isHeldUp);
     QCOMPARE(output.proof().leftElsewhere(), std::optional(2.0));
     seen.offset.movement.x = 0.1;
-    output.pushedBack(seen);
+    output.pushedBack(seen, false);
     QCOMPARE(output.primary()->text(), OutputPage::tr("Take verification photograph"));
     output.close();
   }

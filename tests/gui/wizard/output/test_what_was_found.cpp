@@ -185,6 +185,27 @@ class TestWhatWasFound : public QObject, private OutputOnVenue {
     QCOMPARE(page_->proof().next(), Next::repair);
   }
 
+  /// Law: a camera that never looked elsewhere explains nothing of what was found; one that was pushed back
+  /// does.
+  void aCameraThatNeverMovedExplainsNothing() {
+    becomes(paint);
+    openOutput();
+    page_->checkDrift();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().newestDrift() != nullptr && isIdle(), patience);
+    QCOMPARE(page_->proof().next(), Next::repair);
+    NudgeSight atItsPlace;
+    atItsPlace.offset.isRecognised = true;
+    page_->pushedBack(atItsPlace, false);
+    QVERIFY(page_->proof().newestDrift() != nullptr && !driftRemark().isEmpty());
+    QCOMPARE(page_->proof().next(), Next::repair);
+    QCOMPARE(page_->status().result, QString("Not as predicted"));
+    page_->pushedBack(atItsPlace, true);
+    QVERIFY(page_->proof().newestDrift() == nullptr && driftRemark().isEmpty());
+    QCOMPARE(page_->proof().next(), Next::photograph);
+    QVERIFY2(remark("proof-remark").contains("What was found before that holds no more."),
+             qPrintable(remark("proof-remark")));
+  }
+
   /// Law: a photograph that was as predicted settles an earlier check, for another set and other content,
   /// too: where camera and projector stand is not theirs.
   void whatWasProvedSettlesAnEarlierCheck() {

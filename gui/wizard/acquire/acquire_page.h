@@ -107,6 +107,9 @@ class AcquirePage : public DevicePage {
   void setFineness(Fineness fineness);
   /// What the checks of this measurement said, or of the last one.
   const AcquisitionTrace& trace() const { return trace_; }
+  /// What may be expected by now; none before there is a first look, and while what is gone on with is read
+  /// and is no finer yet than what is known of it.
+  AcquisitionTrace::SharedOutlook outlook() const;
   /// It is that of the measurement that the page is about: not of other settings, nor of another result.
   bool isTraceCurrent() const;
   /// How often light and view are compared, and what follows.

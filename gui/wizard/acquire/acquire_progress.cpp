@@ -46,6 +46,12 @@ bool AcquirePage::isReading() const {
          photographs() == 0;
 }
 
+AcquisitionTrace::SharedOutlook AcquirePage::outlook() const {
+  const AcquisitionTrace::SharedOutlook& outlook = trace_.outlook();
+  const bool isGoingOn = isMeasuring() && !anew_ && stoppedAt() > 0;
+  return isGoingOn && outlook && outlook->blocks > stoppedAt() ? nullptr : outlook;
+}
+
 PatternCount AcquirePage::reading() const {
   return {std::min(kept_, patterns().taken), kept_};
 }

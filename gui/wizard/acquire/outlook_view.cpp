@@ -49,7 +49,7 @@ QWidget* outlookCard(AcquirePage& model) {
   card->setWhatsThis(qualityMeaning());
   card->body()->addWidget(picture, 1);
   auto refresh = [&model, card, picture, shown = AcquisitionTrace::SharedOutlook()]() mutable {
-    const AcquisitionTrace::SharedOutlook& outlook = model.trace().outlook();
+    const AcquisitionTrace::SharedOutlook outlook = model.outlook();
     if (std::exchange(shown, outlook) == outlook) return;
     picture->setPicture(outlook ? encodedPictureOf(outlook->picture) : QImage());
     card->setSubtitle(outlook ? AcquirePage::tr("%1 px").arg(outlook->blocks) : QString());
@@ -74,7 +74,7 @@ QWidget* outlookPart(AcquirePage& model) {
   part->setToolTip(qualityMeaning());
   part->setWhatsThis(qualityMeaning());
   auto refresh = [&model, part, now, whole] {
-    const AcquisitionTrace::SharedOutlook& outlook = model.trace().outlook();
+    const AcquisitionTrace::SharedOutlook outlook = model.outlook();
     part->setVisible(model.isMeasuring() && outlook);
     if (!outlook) return;
     now->setValue(qualityText(outlook->now));

@@ -327,6 +327,34 @@ class TestAcquirePage : public QObject {
              qPrintable(QString("%1 s, then %2 s").arg(took).arg(whole)));
   }
 
+  /// Law: what is gone on with is not expected to be coarser than it was, while it is read again.
+  void whatIsGoneOnWithIsNoCoarserThanItWas() {
+    CalibrateSettings settings = smallVenue();
+    std::get<VenueSettings>(settings.rig).projector = {96, 72};
+    own_->begin(settings);
+    AcquirePage page(*session_);
+    const QMetaObject::Connection stopping =
+        connect(&page.trace(), &AcquisitionTrace::changed, &page, [&page] {
+          if (page.isMeasuring() && !page.isStopping() && page.trace().growth().levels.size() > 3)
+            page.stopAndKeep();
+        });
+    page.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    disconnect(stopping);
+    const int known = page.stoppedAt();
+    QVERIFY2(known > 1, qPrintable(QString::number(known)));
+    int coarsestRead = 0, coarsestShown = 0;
+    connect(&page.trace(), &AcquisitionTrace::changed, &page, [&] {
+      if (!page.isMeasuring()) return;
+      if (const auto& read = page.trace().outlook()) coarsestRead = std::max(coarsestRead, read->blocks);
+      if (const auto shown = page.outlook()) coarsestShown = std::max(coarsestShown, shown->blocks);
+    });
+    page.banner()->command->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QVERIFY2(coarsestRead > known, qPrintable(QString::number(coarsestRead)));
+    QVERIFY2(coarsestShown <= known, qPrintable(QString::number(coarsestShown)));
+  }
+
   /// Law: an earlier measurement is used until the new one is ready, and how far that has come is said. There
   /// is one way on, in the action bar.
   void measuredAgainTheEarlierIsUsedMeanwhile() {

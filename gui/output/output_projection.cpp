@@ -72,7 +72,7 @@ void OutputProjection::open(const Wanted& wanted) {
     Progress preparing =
         progress.part(1.0, RELUCENT_MESSAGE("stage.preparing-engine", "Preparing the engine"));
     Canvas canvas = canvasFor(wanted.list, wanted.fit);
-    made->content = std::make_shared<Playlist>(wanted.list, canvas);
+    made->content = std::make_shared<Playlist>(wanted.list, canvas, Attendance::attended, wanted.first);
     made->renderer = std::make_unique<TappedRenderer>(
         std::make_unique<EngineRenderer>(RendererSettings{wanted.calibration, canvas}, preparing,
                                          engine::FallbackBackend::Notify(),

@@ -28,6 +28,7 @@ class OutputProjection : public QObject {
     PlaylistSettings list;
     compensation::Fit fit = compensation::Fit::fit;
     std::vector<std::optional<ScreenIdentity>> screens;  // one a projector; none: it plays unseen
+    qsizetype first = 0;                                 // item of the list that it begins with
   };
 
   explicit OutputProjection(QObject* parent = nullptr);

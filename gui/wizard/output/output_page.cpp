@@ -75,9 +75,8 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   });
   connect(&proof_, &OutputProof::changed, this, &OutputPage::tellResult);
   connect(&proof_, &OutputProof::progressed, this, &OutputPage::tellProgress);
-  connect(&proof_, &OutputProof::ended, this, [this](OutputProof::Work work) {
-    work == OutputProof::Work::repair ? repairEnded() : proofEnded();
-  });
+  connect(&proof_, &OutputProof::ended, this,
+          [this](OutputProof::Work work) { work == OutputProof::Work::repair ? repairEnded() : reopen(); });
   connect(&proof_, &OutputProof::failed, this, &OutputPage::tell);
   connect(&proof_, &OutputProof::reported, this, [this](const QString& file) {
     reportFile_ = file;
@@ -92,7 +91,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&projection_, &OutputProjection::progressed, this, &OutputPage::lookAtPicture);
   connect(&projection_, &OutputProjection::progressed, this, &OutputPage::tellProgress);
   connect(&projection_, &OutputProjection::changed, this, [this] {
-    session_.setShowing(isOpen() || reopen_);
+    session_.setShowing(isOpen() || reopenWith_);
     if (isOpen() != second_.isActive()) isOpen() ? second_.start() : second_.stop();
     lookAtPicture();
     tellProgress();
@@ -115,7 +114,7 @@ OutputPage::~OutputPage() {
 }
 
 void OutputPage::finish() {
-  reopen_ = false;
+  reopenWith_.reset();
   proof_.cancel();
   perfecting_.cancel();
   close();

@@ -116,7 +116,7 @@ class OutputPage : public DevicePage {
   /// Not the one for films: how pictures that stand are solved. Empty: like films.
   QString stillMethod() const;
 
-  void open();
+  void open() { openWith(0); }
   void close();
   /// What is measured or chosen has become newer than what the output was opened with and goes on playing.
   bool playsEarlier() const { return isOpen() && playsFrom_ != session_.shownFrom(); }
@@ -206,7 +206,9 @@ class OutputPage : public DevicePage {
   void edit(const QString& what, const PlaylistSettings& after);
   void setPlaylist(const PlaylistSettings& settings);
   void whileClosed(const std::function<void()>& work);
-  void proofEnded();
+  void openWith(qsizetype item);
+  void closeForNow();
+  void reopen();
   void repairEnded();
   bool isJudged() const;
   bool isDoubted() const;
@@ -236,7 +238,7 @@ class OutputPage : public DevicePage {
   std::vector<std::optional<std::size_t>> chosen_;  // where that is among screens_
   std::string playsFrom_;                           // what the output was opened with
   std::vector<ScreenIdentity> screensBefore_;       // the calibration's
-  bool reopen_ = false;                             // when the photographs are taken
+  std::optional<qsizetype> reopenWith_;             // when the photographs are taken: the item that played
   QString preferred_;                               // Preview's picture
   QString config_;
   InstalledShow installed_ = InstalledShow::none;

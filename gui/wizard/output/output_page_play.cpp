@@ -136,7 +136,7 @@ QString OutputPage::stillMethod() const {
   return method == compensation::Method::refined ? QString() : methodName(method);
 }
 
-void OutputPage::open() {
+void OutputPage::openWith(qsizetype item) {
   if (isOpen() || projection_.isOpening() || projectorWithoutScreen() || playlist_.isEmpty() ||
       !session_.areDevicesFree())
     return;
@@ -154,19 +154,27 @@ void OutputPage::open() {
   }
   if (earlier_) results = earlier_->path();
   playsFrom_ = session_.shownFrom();
-  projection_.open({results, playlist_.settings(), session_.settings().content.fit, screens});
+  projection_.open({results, playlist_.settings(), session_.settings().content.fit, screens, item});
 }
 
 void OutputPage::close() {
   projection_.close();
 }
 
+/// The show goes on, where it is in its list.
+void OutputPage::closeForNow() {
+  reopenWith_ = projection_.playing();
+  close();
+}
+
+void OutputPage::reopen() {
+  if (const auto item = std::exchange(reopenWith_, std::nullopt)) openWith(*item);
+}
+
 void OutputPage::renew() {
   if (!renew_->isEnabled()) return;
-  reopen_ = true;  // the show goes on
-  close();
-  reopen_ = false;
-  open();
+  closeForNow();
+  reopen();
 }
 
 }  // namespace relucent::gui

@@ -28,10 +28,7 @@ QString OutputPage::whyNoPatterns() const {
 void OutputPage::whileClosed(const std::function<void()>& work) {
   if (!whyNoPhotograph().isEmpty()) return;
   // A real camera would photograph the show.
-  if (isOpen() && !session_.isSimulated()) {
-    reopen_ = true;
-    close();
-  }
+  if (isOpen() && !session_.isSimulated()) closeForNow();
   work();
 }
 
@@ -50,7 +47,7 @@ void OutputPage::repair() {
 /// What was repaired is shown at once: it was photographed, and is better.
 void OutputPage::repairEnded() {
   if (playsEarlier() && proof_.repair() && proof_.repair()->end == pipeline::RepairEnd::repaired) renew();
-  proofEnded();
+  reopen();
 }
 
 void OutputPage::askToUndoRepair() {
@@ -97,15 +94,8 @@ Canvas OutputPage::canvasOfPicture() const {
 
 /// What stands on the projectors is looked for again.
 void OutputPage::perfectingEnded(bool isOther) {
-  if (isOther && isOpen()) {
-    reopen_ = true;
-    close();
-  }
-  proofEnded();
-}
-
-void OutputPage::proofEnded() {
-  if (std::exchange(reopen_, false)) open();
+  if (isOther && isOpen()) closeForNow();
+  reopen();
 }
 
 void OutputPage::pushBack() {
@@ -115,7 +105,7 @@ void OutputPage::pushBack() {
 void OutputPage::pushedBack(const std::optional<NudgeSight>& last, bool wasElsewhere) {
   if (last && last->isAtItsPlace()) proof_.cameraAtItsPlace(wasElsewhere);
   if (last && last->isElsewhere()) proof_.cameraLeft(last->distance());
-  proofEnded();
+  reopen();
 }
 
 QString OutputPage::pictureToProve() const {

@@ -301,6 +301,15 @@ class TestWhatPlays : public QObject, private OutputOnVenue {
     page_->removeItem(0);
     QTRY_COMPARE_WITH_TIMEOUT(page_->projection().playing(), qsizetype{0}, patience);
     QCOMPARE(playing(), first);
+    // Nor is it begun anew for another correction.
+    page_->moveItem(0, 1);
+    QTRY_COMPARE_WITH_TIMEOUT(page_->projection().playing(), qsizetype{1}, patience);
+    change([](pipeline::CalibrateSettings& settings) { settings.content.reachablePercentile = 40.0; });
+    QVERIFY(page_->playsEarlier());
+    page_->renew();
+    QVERIFY(!page_->isOpen());
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !playing().isEmpty(), patience);
+    QCOMPARE(playing(), first);
   }
 
   /// Law: the list that is seen is the one that plays, also when a picture comes to it from Preview: what is

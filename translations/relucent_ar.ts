@@ -438,6 +438,18 @@
         <source>No picture can be corrected by it. Go on measuring any time.</source>
         <translation>لا يمكن تصحيح أي صورة به. تابع القياس في أي وقت.</translation>
     </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>لم تنتهِ إعادة القياس</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>ما قيس قديم: يخصّ إعدادات سابقة</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from the earlier measurement, until the new one is ready.</source>
+        <translation>ما زال القياس السابق صالحًا، وما تراه ناتج عنه، حتى يكتمل الجديد.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -6932,10 +6944,6 @@ projector %2</source>
         <translation>عادت الكاميرا إلى موضعها</translation>
     </message>
     <message>
-        <source>Take the photograph again: the last one was taken before.</source>
-        <translation>التقط الصورة من جديد: الأخيرة التُقطت قبل ذلك.</translation>
-    </message>
-    <message>
         <source>Put the camera back, or repair the calibration.</source>
         <translation>أعد الكاميرا إلى مكانها، أو أصلِح المعايرة.</translation>
     </message>
@@ -7323,6 +7331,10 @@ projector %2</source>
         <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
         <translation>يقع في صورة الكاميرا على بُعد %1 من اليسار و%2 من الأعلى.</translation>
     </message>
+    <message>
+        <source>What was found before that holds no more. Take a verification photograph.</source>
+        <translation>ما وُجد قبل ذلك لم يعد ساريًا. التقط لقطة التحقق.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7478,8 +7490,8 @@ projector %2</source>
         <translation>غير محسَّنة منذ التغيير</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>حُسِّنت لقياس سابق أو لمجموعة أخرى أو بأقنعة أخرى أو لموضع آخر. ذلك محفوظ، لكنه لا يفيد الآن: حسِّنها مرة أخرى.</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other light or masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>حُسِّنت لقياس سابق أو لمجموعة أخرى أو بضوء أو أقنعة أخرى أو لموضع آخر. ذلك محفوظ، لكنه لا يفيد الآن: حسِّنها مرة أخرى.</translation>
     </message>
 </context>
 <context>
@@ -7758,14 +7770,6 @@ projector %2</source>
     <message>
         <source>no note</source>
         <translation>لا ملاحظة</translation>
-    </message>
-    <message>
-        <source>What was measured is out of date: it belongs to earlier settings</source>
-        <translation>ما قيس قديم: يخصّ إعدادات سابقة</translation>
-    </message>
-    <message>
-        <source>It still works, and what you see follows from it, until it is measured again.</source>
-        <translation>ما زال صالحًا، وما تراه ناتج عنه، حتى يُقاس من جديد.</translation>
     </message>
     <message>
         <source>The projector&apos;s screen is unplugged.</source>
@@ -8182,6 +8186,10 @@ projector %2</source>
     <message>
         <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
         <translation>متوقّع من القياس. يُعرض عرض برنامج آخر.</translation>
+    </message>
+    <message>
+        <source>The preview is being prepared.</source>
+        <translation>يجري تحضير المعاينة.</translation>
     </message>
 </context>
 <context>

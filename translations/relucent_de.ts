@@ -426,6 +426,18 @@
         <source>No picture can be corrected by it. Go on measuring any time.</source>
         <translation>Damit lässt sich kein Bild korrigieren. Messen Sie jederzeit weiter.</translation>
     </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>Die neue Messung ist nicht zu Ende</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>Das Gemessene ist veraltet: Es gehört zu früheren Einstellungen</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from the earlier measurement, until the new one is ready.</source>
+        <translation>Die frühere Messung gilt weiter, und was Sie sehen, folgt daraus, bis die neue fertig ist.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -6788,10 +6800,6 @@ Projektor %2</translation>
         <translation>Die Kamera steht wieder an ihrem Platz</translation>
     </message>
     <message>
-        <source>Take the photograph again: the last one was taken before.</source>
-        <translation>Machen Sie das Foto noch einmal: Das letzte ist von vorher.</translation>
-    </message>
-    <message>
         <source>Put the camera back, or repair the calibration.</source>
         <translation>Stellen Sie die Kamera zurück, oder reparieren Sie die Kalibrierung.</translation>
     </message>
@@ -6809,7 +6817,7 @@ Projektor %2</translation>
     </message>
     <message>
         <source>Repairing</source>
-        <translation>Repariert</translation>
+        <translation>Wird repariert</translation>
     </message>
     <message>
         <source>The output is closed. Patterns to be photographed are projected.</source>
@@ -7179,6 +7187,10 @@ Projektor %2</translation>
         <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
         <translation>Im Kamerabild liegt er bei %1 von links und %2 von oben.</translation>
     </message>
+    <message>
+        <source>What was found before that holds no more. Take a verification photograph.</source>
+        <translation>Was davor gefunden wurde, gilt nicht mehr. Nehmen Sie ein Prüffoto auf.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7326,8 +7338,8 @@ Projektor %2</translation>
         <translation>Seit der Änderung nicht perfektioniert</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Es wurde für eine frühere Messung, für eine andere Variante, mit anderen Masken oder anders platziert perfektioniert. Das ist aufgehoben, nützt jetzt aber nichts: Perfektionieren Sie es noch einmal.</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other light or masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Es wurde für eine frühere Messung, für eine andere Variante, mit anderem Licht, anderen Masken oder anders platziert perfektioniert. Das ist aufgehoben, nützt jetzt aber nichts: Perfektionieren Sie es noch einmal.</translation>
     </message>
 </context>
 <context>
@@ -7606,14 +7618,6 @@ Projektor %2</translation>
     <message>
         <source>no note</source>
         <translation>keine Anmerkung</translation>
-    </message>
-    <message>
-        <source>What was measured is out of date: it belongs to earlier settings</source>
-        <translation>Das Gemessene ist veraltet: Es gehört zu früheren Einstellungen</translation>
-    </message>
-    <message>
-        <source>It still works, and what you see follows from it, until it is measured again.</source>
-        <translation>Es gilt weiter, und was Sie sehen, folgt daraus, bis neu gemessen wird.</translation>
     </message>
     <message>
         <source>The projector&apos;s screen is unplugged.</source>
@@ -8030,6 +8034,10 @@ Projektor %2</translation>
     <message>
         <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
         <translation>Aus der Messung vorhergesagt. Projiziert wird die Show eines anderen Programms.</translation>
+    </message>
+    <message>
+        <source>The preview is being prepared.</source>
+        <translation>Die Vorschau wird vorbereitet.</translation>
     </message>
 </context>
 <context>

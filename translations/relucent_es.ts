@@ -426,6 +426,18 @@
         <source>No picture can be corrected by it. Go on measuring any time.</source>
         <translation>Con ella no se puede corregir ninguna imagen. Siga midiendo cuando quiera.</translation>
     </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>La nueva medición no ha terminado</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>Lo medido está desactualizado: corresponde a ajustes anteriores</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from the earlier measurement, until the new one is ready.</source>
+        <translation>La medición anterior sigue sirviendo, y lo que ve se deriva de ella, hasta que la nueva esté lista.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -6788,10 +6800,6 @@ proyector %2</translation>
         <translation>La cámara vuelve a estar en su sitio</translation>
     </message>
     <message>
-        <source>Take the photograph again: the last one was taken before.</source>
-        <translation>Tome la fotografía otra vez: la última es de antes.</translation>
-    </message>
-    <message>
         <source>Put the camera back, or repair the calibration.</source>
         <translation>Recoloque la cámara o repare la calibración.</translation>
     </message>
@@ -7179,6 +7187,10 @@ proyector %2</translation>
         <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
         <translation>En la imagen de la cámara está al %1 desde la izquierda y al %2 desde arriba.</translation>
     </message>
+    <message>
+        <source>What was found before that holds no more. Take a verification photograph.</source>
+        <translation>Lo que se encontró antes ya no vale. Tome una fotografía de verificación.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7326,8 +7338,8 @@ proyector %2</translation>
         <translation>Sin perfeccionar desde el cambio</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Se perfeccionó para una medición anterior, para otra variante, con otras máscaras, o colocada de otro modo. Eso se conserva, pero ahora no sirve: perfecciónela otra vez.</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other light or masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Se perfeccionó para una medición anterior, para otra variante, con otra luz u otras máscaras, o colocada de otro modo. Eso se conserva, pero ahora no sirve: perfecciónela otra vez.</translation>
     </message>
 </context>
 <context>
@@ -7606,14 +7618,6 @@ proyector %2</translation>
     <message>
         <source>no note</source>
         <translation>sin nota</translation>
-    </message>
-    <message>
-        <source>What was measured is out of date: it belongs to earlier settings</source>
-        <translation>Lo medido está desactualizado: corresponde a ajustes anteriores</translation>
-    </message>
-    <message>
-        <source>It still works, and what you see follows from it, until it is measured again.</source>
-        <translation>Sigue sirviendo, y lo que ve se deriva de ello, hasta que se mida de nuevo.</translation>
     </message>
     <message>
         <source>The projector&apos;s screen is unplugged.</source>
@@ -8030,6 +8034,10 @@ proyector %2</translation>
     <message>
         <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
         <translation>Previsto a partir de la medición. Se proyecta el show de otro programa.</translation>
+    </message>
+    <message>
+        <source>The preview is being prepared.</source>
+        <translation>Se está preparando la vista previa.</translation>
     </message>
 </context>
 <context>

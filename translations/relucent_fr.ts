@@ -426,6 +426,18 @@
         <source>No picture can be corrected by it. Go on measuring any time.</source>
         <translation>Aucune image ne peut être corrigée avec elle. Continuez la mesure quand vous voulez.</translation>
     </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>La nouvelle mesure n’est pas terminée</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>La mesure est périmée : elle correspond à des réglages antérieurs</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from the earlier measurement, until the new one is ready.</source>
+        <translation>La mesure antérieure reste utilisable, et ce que vous voyez en découle, jusqu’à ce que la nouvelle soit prête.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -6788,10 +6800,6 @@ projecteur %2</translation>
         <translation>La caméra est revenue à sa place</translation>
     </message>
     <message>
-        <source>Take the photograph again: the last one was taken before.</source>
-        <translation>Reprenez la photo : la dernière date d’avant.</translation>
-    </message>
-    <message>
         <source>Put the camera back, or repair the calibration.</source>
         <translation>Replacez la caméra ou réparez la calibration.</translation>
     </message>
@@ -7179,6 +7187,10 @@ projecteur %2</translation>
         <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
         <translation>Dans l’image de la caméra, elle est à %1 de la gauche et %2 du haut.</translation>
     </message>
+    <message>
+        <source>What was found before that holds no more. Take a verification photograph.</source>
+        <translation>Ce qui avait été constaté avant ne vaut plus. Prenez une photo de contrôle.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7326,8 +7338,8 @@ projecteur %2</translation>
         <translation>Pas perfectionnée depuis le changement</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Elle a été perfectionnée pour une mesure antérieure, pour une autre variante, avec d’autres masques, ou placée autrement. Cela est conservé, mais ne sert plus&#xa0;: perfectionnez-la encore une fois.</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other light or masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>Elle a été perfectionnée pour une mesure antérieure, pour une autre variante, avec une autre lumière ou d’autres masques, ou placée autrement. Cela est conservé, mais ne sert plus : perfectionnez-la encore une fois.</translation>
     </message>
 </context>
 <context>
@@ -7606,14 +7618,6 @@ projecteur %2</translation>
     <message>
         <source>no note</source>
         <translation>sans remarque</translation>
-    </message>
-    <message>
-        <source>What was measured is out of date: it belongs to earlier settings</source>
-        <translation>La mesure est périmée : elle correspond à des réglages antérieurs</translation>
-    </message>
-    <message>
-        <source>It still works, and what you see follows from it, until it is measured again.</source>
-        <translation>Elle reste utilisable, et ce que vous voyez en découle, jusqu’à la prochaine mesure.</translation>
     </message>
     <message>
         <source>The projector&apos;s screen is unplugged.</source>
@@ -8030,6 +8034,10 @@ projecteur %2</translation>
     <message>
         <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
         <translation>Prévu d’après la mesure. La diffusion d’un autre programme est projetée.</translation>
+    </message>
+    <message>
+        <source>The preview is being prepared.</source>
+        <translation>L’aperçu est en préparation.</translation>
     </message>
 </context>
 <context>

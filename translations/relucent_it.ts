@@ -426,6 +426,18 @@
         <source>No picture can be corrected by it. Go on measuring any time.</source>
         <translation>Con questa non si può correggere alcuna immagine. Continuare a misurare in qualsiasi momento.</translation>
     </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>La nuova misura non è finita</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>La misura non è aggiornata: appartiene a impostazioni precedenti</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from the earlier measurement, until the new one is ready.</source>
+        <translation>La misura precedente resta utilizzabile, e ciò che si vede ne deriva, finché la nuova non è pronta.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -6788,10 +6800,6 @@ proiettore %2</translation>
         <translation>La fotocamera è di nuovo al suo posto</translation>
     </message>
     <message>
-        <source>Take the photograph again: the last one was taken before.</source>
-        <translation>Scattare di nuovo la foto: l’ultima è di prima.</translation>
-    </message>
-    <message>
         <source>Put the camera back, or repair the calibration.</source>
         <translation>Rimettere a posto la fotocamera o riparare la calibrazione.</translation>
     </message>
@@ -7179,6 +7187,10 @@ proiettore %2</translation>
         <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
         <translation>Nell’immagine della fotocamera è al %1 da sinistra e al %2 dall’alto.</translation>
     </message>
+    <message>
+        <source>What was found before that holds no more. Take a verification photograph.</source>
+        <translation>Ciò che era stato trovato prima non vale più. Scattare una foto di verifica.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7326,8 +7338,8 @@ proiettore %2</translation>
         <translation>Non perfezionata dopo il cambiamento</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>È stata perfezionata per una misura precedente, per un’altra variante, con altre maschere, o posizionata in altro modo. Resta conservato, ma ora non serve: va perfezionata ancora una volta.</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other light or masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>È stata perfezionata per una misura precedente, per un’altra variante, con altra luce o altre maschere, o posizionata in altro modo. Resta conservato, ma ora non serve: va perfezionata ancora una volta.</translation>
     </message>
 </context>
 <context>
@@ -7606,14 +7618,6 @@ proiettore %2</translation>
     <message>
         <source>no note</source>
         <translation>nessuna nota</translation>
-    </message>
-    <message>
-        <source>What was measured is out of date: it belongs to earlier settings</source>
-        <translation>La misura non è aggiornata: appartiene a impostazioni precedenti</translation>
-    </message>
-    <message>
-        <source>It still works, and what you see follows from it, until it is measured again.</source>
-        <translation>Resta utilizzabile, e ciò che si vede ne deriva, finché non si misura di nuovo.</translation>
     </message>
     <message>
         <source>The projector&apos;s screen is unplugged.</source>
@@ -8030,6 +8034,10 @@ proiettore %2</translation>
     <message>
         <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
         <translation>Previsto dalla misura. Viene proiettato lo show di un altro programma.</translation>
+    </message>
+    <message>
+        <source>The preview is being prepared.</source>
+        <translation>L’anteprima è in preparazione.</translation>
     </message>
 </context>
 <context>

@@ -423,6 +423,18 @@
         <source>No picture can be corrected by it. Go on measuring any time.</source>
         <translation>これでは映像を補正できません。いつでも測定を続けられます。</translation>
     </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>再測定が終わっていません</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>測定結果は古くなっています。以前の設定のものです</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from the earlier measurement, until the new one is ready.</source>
+        <translation>新しい測定ができるまでは以前の測定が引き続き使え、表示もそれに基づきます。</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -6752,10 +6764,6 @@ projector %2</source>
         <translation>カメラは元の位置に戻りました</translation>
     </message>
     <message>
-        <source>Take the photograph again: the last one was taken before.</source>
-        <translation>もう一度撮影してください。前の写真は戻す前のものです。</translation>
-    </message>
-    <message>
         <source>Put the camera back, or repair the calibration.</source>
         <translation>カメラを元に戻すか、校正を修復してください。</translation>
     </message>
@@ -7143,6 +7151,10 @@ projector %2</source>
         <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
         <translation>カメラ画像の左から %1、上から %2 の位置です。</translation>
     </message>
+    <message>
+        <source>What was found before that holds no more. Take a verification photograph.</source>
+        <translation>その前に見つかったことはもう当てはまりません。検証写真を撮影してください。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7288,8 +7300,8 @@ projector %2</source>
         <translation>変更後は未仕上げ</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>以前の測定用、別のセット用、別のマスクで、または別の配置で仕上げられています。それは保存されていますが、今は使えません。もう一度仕上げてください。</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other light or masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>以前の測定用、別のセット用、別の光やマスクで、または別の配置で仕上げられています。それは保存されていますが、今は使えません。もう一度仕上げてください。</translation>
     </message>
 </context>
 <context>
@@ -7568,14 +7580,6 @@ projector %2</source>
     <message>
         <source>no note</source>
         <translation>注記なし</translation>
-    </message>
-    <message>
-        <source>What was measured is out of date: it belongs to earlier settings</source>
-        <translation>測定結果は古くなっています。以前の設定のものです</translation>
-    </message>
-    <message>
-        <source>It still works, and what you see follows from it, until it is measured again.</source>
-        <translation>測定し直すまでは引き続き使え、表示もそれに基づきます。</translation>
     </message>
     <message>
         <source>The projector&apos;s screen is unplugged.</source>
@@ -7992,6 +7996,10 @@ projector %2</source>
     <message>
         <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
         <translation>測定からの予測です。別のプログラムのショーが投影されています。</translation>
+    </message>
+    <message>
+        <source>The preview is being prepared.</source>
+        <translation>プレビューを準備しています。</translation>
     </message>
 </context>
 <context>

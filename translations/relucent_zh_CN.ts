@@ -423,6 +423,18 @@
         <source>No picture can be corrected by it. Go on measuring any time.</source>
         <translation>无法用它校正任何画面。可随时继续测量。</translation>
     </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>重新测量尚未结束</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>测量结果已过期：属于以前的设置</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from the earlier measurement, until the new one is ready.</source>
+        <translation>在新的测量完成之前，先前的测量仍然可用，您看到的内容也由此得出。</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -6752,10 +6764,6 @@ projector %2</source>
         <translation>相机已回到原位</translation>
     </message>
     <message>
-        <source>Take the photograph again: the last one was taken before.</source>
-        <translation>请再拍一次：上一张是之前拍的。</translation>
-    </message>
-    <message>
         <source>Put the camera back, or repair the calibration.</source>
         <translation>请把相机放回原位，或修复校准。</translation>
     </message>
@@ -7143,6 +7151,10 @@ projector %2</source>
         <source>In the camera&apos;s picture it is %1 from the left and %2 from the top.</source>
         <translation>它位于相机画面中距左侧 %1、距顶部 %2 处。</translation>
     </message>
+    <message>
+        <source>What was found before that holds no more. Take a verification photograph.</source>
+        <translation>此前的发现不再成立。请拍一张验证照片。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7288,8 +7300,8 @@ projector %2</source>
         <translation>更改后尚未完善</translation>
     </message>
     <message>
-        <source>It was perfected for an earlier measurement, for another set, with other masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>它是为先前的测量、另一个方案、其他遮罩或另一种放置完善的。那些结果仍保留，但现在不适用：请再完善一次。</translation>
+        <source>It was perfected for an earlier measurement, for another set, with other light or masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
+        <translation>它是为先前的测量、另一个方案、其他光照或遮罩，或另一种放置完善的。那些结果仍保留，但现在不适用：请再完善一次。</translation>
     </message>
 </context>
 <context>
@@ -7568,14 +7580,6 @@ projector %2</source>
     <message>
         <source>no note</source>
         <translation>无备注</translation>
-    </message>
-    <message>
-        <source>What was measured is out of date: it belongs to earlier settings</source>
-        <translation>测量结果已过期：属于以前的设置</translation>
-    </message>
-    <message>
-        <source>It still works, and what you see follows from it, until it is measured again.</source>
-        <translation>在重新测量之前仍然可用，您看到的内容也由此得出。</translation>
     </message>
     <message>
         <source>The projector&apos;s screen is unplugged.</source>
@@ -7992,6 +7996,10 @@ projector %2</source>
     <message>
         <source>Predicted from the measurement. Another program&apos;s show is projected.</source>
         <translation>根据测量预测。正在投影另一个程序的节目。</translation>
+    </message>
+    <message>
+        <source>The preview is being prepared.</source>
+        <translation>正在准备预览。</translation>
     </message>
 </context>
 <context>

@@ -34,8 +34,8 @@ inline QString nothingToldApart() {
   return QCoreApplication::translate("StoppedEarly", "Measuring was stopped before anything was told apart");
 }
 
-/// What stands above the pages that use a measurement which was stopped early, fits nothing or has holes;
-/// none: it is whole. `toAcquire`: leads to where it can be gone on with, or begun again.
+/// What stands above the pages that use a measurement which was stopped early, is out of date, fits nothing
+/// or has holes; none: it is whole. `toAcquire`: leads to where it can be gone on with, or begun again.
 inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* toAcquire) {
   if (const auto change = session.foundChange())
     return Banner{
@@ -54,6 +54,17 @@ inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* 
                   "No picture can be corrected by it. Go on measuring, or use the earlier one, at Acquire.")
             : QCoreApplication::translate("StoppedEarly",
                                           "No picture can be corrected by it. Go on measuring any time."),
+        toAcquire};
+  if (session.progress(calibration::Stage::acquisition) == calibration::StageProgress::stale)
+    return Banner{
+        Banner::Kind::amber,
+        session.photographsSince(calibration::Stage::acquisition) > 0
+            ? QCoreApplication::translate("StoppedEarly", "Measuring again has not ended")
+            : QCoreApplication::translate("StoppedEarly",
+                                          "What was measured is out of date: it belongs to earlier settings"),
+        QCoreApplication::translate("StoppedEarly",
+                                    "It still works, and what you see follows from the earlier measurement, "
+                                    "until the new one is ready."),
         toAcquire};
   if (const int blocks = session.stoppedAt(); blocks > 0)
     return Banner{

@@ -103,9 +103,9 @@ void showState(Remark& remark, const Perfecting& perfecting) {
   if (perfecting.wasBefore())
     return remark.show(Remark::Kind::watch, Perfecting::tr("Not perfected since it changed"),
                        withElsewhere(Perfecting::tr("It was perfected for an earlier measurement, for "
-                                                    "another set, with other masks, or placed otherwise. "
-                                                    "That is kept, "
-                                                    "and is of no use now: perfect it once more.")));
+                                                    "another set, with other light or masks, or placed "
+                                                    "otherwise. That is kept, and is of no use now: "
+                                                    "perfect it once more.")));
   remark.show(Remark::Kind::watch, Perfecting::tr("Not perfected"),
               withElsewhere(Perfecting::tr(
                   "A picture that stands can be corrected by photographs of itself, some eight of them. It "

@@ -320,11 +320,10 @@ void PreviewPage::compareNext() {
 
 std::optional<Banner> PreviewPage::banner() const {
   using calibration::Stage;
-  if (session_.progress(Stage::acquisition) == calibration::StageProgress::stale)
-    return Banner{Banner::Kind::amber, tr("What was measured is out of date: it belongs to earlier settings"),
-                  tr("It still works, and what you see follows from it, until it is measured again.")};
   // Whatever else is out of date, it cannot be brought up to date by that.
-  if (isNothingToldApart(session_) || session_.progress(Stage::content) != calibration::StageProgress::stale)
+  if (isNothingToldApart(session_) ||
+      session_.progress(Stage::acquisition) == calibration::StageProgress::stale ||
+      session_.progress(Stage::content) != calibration::StageProgress::stale)
     return onMeasurement(session_, goOnMeasuring_);
   const auto isSince = [&](Stage stage) {
     return session_.result(stage) && session_.result(stage)->stored > session_.result(Stage::content)->stored;
@@ -404,9 +403,14 @@ std::vector<PageCommand*> PreviewPage::secondary() const {
   return {shine_};
 }
 
+/// One of what was measured before may be seen meanwhile.
+QString PreviewPage::whyNoPreview() const {
+  return job_.isRunning() ? tr("The preview is being prepared.") : tr("There is no preview yet.");
+}
+
 QString PreviewPage::whyNotShining() const {
   if (isShining()) return {};
-  if (!preview_ || !engine_) return tr("There is no preview yet.");
+  if (!preview_ || !engine_) return whyNoPreview();
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   const std::vector<ScreenIdentity> screens = projectorScreens(session_);
   if (screens.size() < preview_->sentWith.size())
@@ -470,7 +474,7 @@ bool PreviewPage::keepPlacement() {
 }
 
 QString PreviewPage::whyNotPerfect() const {
-  if (!preview_) return tr("There is no preview yet.");
+  if (!preview_) return whyNoPreview();
   if (isShining()) return tr("A picture is on the surface.");
   // Real projectors show the output: the camera would photograph that.
   if (session_.underWay().show && !session_.isSimulated()) return tr("The output is open. Close it first.");

@@ -136,6 +136,7 @@ class PreviewPage : public DevicePage {
 
   void prepare();
   void prepared();
+  QString whyNoPreview() const;
   void adopt(const pipeline::ContentSettings& settings);
   void adoptContent(const std::string& picture, std::shared_ptr<const image::Image> content);
   void refuse(const Failure& failure);

@@ -211,6 +211,34 @@ class TestRepair : public QObject {
     QVERIFY_THROWS_EXCEPTION(Error, undoRepair(folder));
   }
 
+  /// Law: light of the room alone, which darker pictures show more than the one that is proved, is followed
+  /// from where black is seen to be brighter.
+  void lightOfTheRoomAloneIsFollowed_data() {
+    QTest::addColumn<QString>("venue");
+    QTest::addColumn<double>("ambient");  // it was 0.002
+    QTest::addColumn<bool>("isFollowed");
+    for (const char* venue : {"corner", "statue"}) {
+      QTest::addRow("%s, brighter by 0.35 %%", venue) << venue << 0.0055 << true;
+      QTest::addRow("%s, brighter by 0.1 %%", venue) << venue << 0.003 << false;
+    }
+  }
+  void lightOfTheRoomAloneIsFollowed() {
+    QFETCH(QString, venue);
+    QFETCH(double, ambient);
+    QFETCH(bool, isFollowed);
+    const std::string name = venue.toStdString();
+    const fs::path folder = copyOf(name, acquisition::AcquisitionMode::multiplexed, "room");
+    Changes changes;
+    changes.ambient = ambient;
+    const RepairResult result = repairedAs(folder, name, changes);
+    QVERIFY(!result.what.empty());
+    QVERIFY2((result.end == RepairEnd::repaired) == isFollowed, qPrintable(QString("%1 -> %2, %3 -> %4 dB")
+                                                                               .arg(result.before[0].deltaE)
+                                                                               .arg(result.after[0].deltaE)
+                                                                               .arg(result.before[0].psnr)
+                                                                               .arg(result.after[0].psnr)));
+  }
+
   /// There and back: the very measurement from before, which `tidy` has left, and its proofs with it.
   void theWayBack() {
     const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "back");

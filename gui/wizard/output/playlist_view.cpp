@@ -187,13 +187,6 @@ QWidget* playlistPart(OutputPage& page) {
   column->setContentsMargins(0, 0, 0, 0);
   auto* list = new PlaylistView(page);
   column->addWidget(list);
-  // Beside what it is said of: further down it would not be seen.
-  QLabel* skipped = labelOf({}, "amber");
-  skipped->setObjectName("skipped");
-  column->addWidget(skipped);
-  QLabel* trouble = labelOf({}, "amber");
-  trouble->setObjectName("streams");
-  column->addWidget(trouble);
 
   auto* row = new QHBoxLayout;
   row->setSpacing(space::tight);
@@ -213,6 +206,13 @@ QWidget* playlistPart(OutputPage& page) {
   repeat->setObjectName("repeat");
   row->addWidget(repeat);
   column->addLayout(row);
+  // Near what it is said of, as further down it would not be seen; below the buttons, as it comes and goes.
+  QLabel* skipped = labelOf({}, "amber");
+  skipped->setObjectName("skipped");
+  column->addWidget(skipped);
+  QLabel* trouble = labelOf({}, "amber");
+  trouble->setObjectName("streams");
+  column->addWidget(trouble);
   QPushButton* stream = buttonOf(OutputPage::tr("Add a stream"));
   stream->setObjectName("playlist-stream");
   stream->setToolTip(OutputPage::tr("A live picture from the network, as cameras and encoders send it."));

@@ -53,8 +53,13 @@ void addVerification(const ReportData& data, PageData& warnings, PageData& assur
   const std::string change =
       fmt::format("The correction brings the mean colour error ΔE from {:.1f} to {:.1f}", shown.deltaEBefore,
                   shown.deltaEAfter);
+  // A later check found something else.
+  const bool wasThen = data.drift && data.drift->verdict != acquisition::Verdict::stillGood;
   if (!*shown.isAsPredicted)
     warnings << PageData(doesNotLookAsPredicted(shown, when));
+  else if (wasThen)
+    assurances << PageData(fmt::format(
+        "{}, before the last check for drift: the surface looked as predicted then. {}.", when, change));
   else if (shown.deltaEAfter >= pipeline::plainDeltaE)
     warnings << PageData(
         fmt::format("{}: the surface looks as predicted, but errors are plain to see. {}.", when, change));

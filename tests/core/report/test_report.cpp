@@ -225,6 +225,10 @@ class TestReport : public QObject {
     QVERIFY(!page.contains("Nothing stands out") && page.contains("should be repaired"));
     data.drift->verdict = Verdict::startAgain;
     QVERIFY(html(data).contains("hardly anything fits"));
+    // A photograph from before that is no praise of what is now.
+    data.verification->isAsPredicted = true;
+    page = html(data);
+    QVERIFY(page.contains("looked as predicted then") && !page.contains("looks as predicted"));
     // Of what is no longer shown: it says so where it is and before.
     data.drift.reset();
     data.verification->isAsPredicted.reset();

@@ -7332,8 +7332,12 @@ projector %2</source>
         <translation>يقع في صورة الكاميرا على بُعد %1 من اليسار و%2 من الأعلى.</translation>
     </message>
     <message>
-        <source>What was found before that holds no more. Take a verification photograph.</source>
-        <translation>ما وُجد قبل ذلك لم يعد ساريًا. التقط لقطة التحقق.</translation>
+        <source>What was found before may have come of that: a photograph shows what is left of it.</source>
+        <translation>ما وُجد قبل ذلك ربما نتج عنه: تُظهر لقطة التحقق ما بقي منه.</translation>
+    </message>
+    <message>
+        <source>Black. %1</source>
+        <translation>أسود. %1</translation>
     </message>
 </context>
 <context>

@@ -7188,8 +7188,12 @@ Projektor %2</translation>
         <translation>Im Kamerabild liegt er bei %1 von links und %2 von oben.</translation>
     </message>
     <message>
-        <source>What was found before that holds no more. Take a verification photograph.</source>
-        <translation>Was davor gefunden wurde, gilt nicht mehr. Nehmen Sie ein Prüffoto auf.</translation>
+        <source>What was found before may have come of that: a photograph shows what is left of it.</source>
+        <translation>Was davor gefunden wurde, kann daher gekommen sein: Ein Prüffoto zeigt, was davon bleibt.</translation>
+    </message>
+    <message>
+        <source>Black. %1</source>
+        <translation>Schwarz. %1</translation>
     </message>
 </context>
 <context>

@@ -7188,8 +7188,12 @@ proyector %2</translation>
         <translation>En la imagen de la cámara está al %1 desde la izquierda y al %2 desde arriba.</translation>
     </message>
     <message>
-        <source>What was found before that holds no more. Take a verification photograph.</source>
-        <translation>Lo que se encontró antes ya no vale. Tome una fotografía de verificación.</translation>
+        <source>What was found before may have come of that: a photograph shows what is left of it.</source>
+        <translation>Lo que se encontró antes puede haberse debido a eso: una fotografía de verificación muestra lo que queda.</translation>
+    </message>
+    <message>
+        <source>Black. %1</source>
+        <translation>Negro. %1</translation>
     </message>
 </context>
 <context>

@@ -7188,8 +7188,12 @@ projecteur %2</translation>
         <translation>Dans l’image de la caméra, elle est à %1 de la gauche et %2 du haut.</translation>
     </message>
     <message>
-        <source>What was found before that holds no more. Take a verification photograph.</source>
-        <translation>Ce qui avait été constaté avant ne vaut plus. Prenez une photo de contrôle.</translation>
+        <source>What was found before may have come of that: a photograph shows what is left of it.</source>
+        <translation>Ce qui avait été constaté avant a pu en venir : une photo de contrôle montre ce qu’il en reste.</translation>
+    </message>
+    <message>
+        <source>Black. %1</source>
+        <translation>Noir. %1</translation>
     </message>
 </context>
 <context>
@@ -7339,7 +7343,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>It was perfected for an earlier measurement, for another set, with other light or masks, or placed otherwise. That is kept, and is of no use now: perfect it once more.</source>
-        <translation>Elle a été perfectionnée pour une mesure antérieure, pour une autre variante, avec une autre lumière ou d’autres masques, ou placée autrement. Cela est conservé, mais ne sert plus : perfectionnez-la encore une fois.</translation>
+        <translation>Elle a été perfectionnée pour une mesure antérieure, pour une autre variante, avec une autre lumière ou d’autres masques, ou placée autrement. Cela est conservé, mais ne sert plus&#xa0;: perfectionnez-la encore une fois.</translation>
     </message>
 </context>
 <context>

@@ -7188,8 +7188,12 @@ proiettore %2</translation>
         <translation>Nell’immagine della fotocamera è al %1 da sinistra e al %2 dall’alto.</translation>
     </message>
     <message>
-        <source>What was found before that holds no more. Take a verification photograph.</source>
-        <translation>Ciò che era stato trovato prima non vale più. Scattare una foto di verifica.</translation>
+        <source>What was found before may have come of that: a photograph shows what is left of it.</source>
+        <translation>Ciò che era stato trovato prima può esserne venuto: una foto di verifica mostra che cosa ne resta.</translation>
+    </message>
+    <message>
+        <source>Black. %1</source>
+        <translation>Nero. %1</translation>
     </message>
 </context>
 <context>

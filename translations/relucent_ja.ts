@@ -7152,8 +7152,12 @@ projector %2</source>
         <translation>カメラ画像の左から %1、上から %2 の位置です。</translation>
     </message>
     <message>
-        <source>What was found before that holds no more. Take a verification photograph.</source>
-        <translation>その前に見つかったことはもう当てはまりません。検証写真を撮影してください。</translation>
+        <source>What was found before may have come of that: a photograph shows what is left of it.</source>
+        <translation>その前に見つかったことはそのためかもしれません。検証写真で何が残っているかが分かります。</translation>
+    </message>
+    <message>
+        <source>Black. %1</source>
+        <translation>黒表示。%1</translation>
     </message>
 </context>
 <context>

@@ -7152,8 +7152,12 @@ projector %2</source>
         <translation>它位于相机画面中距左侧 %1、距顶部 %2 处。</translation>
     </message>
     <message>
-        <source>What was found before that holds no more. Take a verification photograph.</source>
-        <translation>此前的发现不再成立。请拍一张验证照片。</translation>
+        <source>What was found before may have come of that: a photograph shows what is left of it.</source>
+        <translation>此前的发现可能由此而来：验证照片会显示还剩下什么。</translation>
+    </message>
+    <message>
+        <source>Black. %1</source>
+        <translation>黑场。%1</translation>
     </message>
 </context>
 <context>

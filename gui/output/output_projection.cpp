@@ -26,6 +26,7 @@ constexpr int mirrorInterval = 67;  // milliseconds: 15 pictures a second show w
 struct OutputProjection::Made {
   std::unique_ptr<FrameRenderer> renderer;
   std::shared_ptr<Playlist> content;
+  Wanted::Beginning beginning;
 };
 
 OutputProjection::OutputProjection(QObject* parent)
@@ -72,7 +73,9 @@ void OutputProjection::open(const Wanted& wanted) {
     Progress preparing =
         progress.part(1.0, RELUCENT_MESSAGE("stage.preparing-engine", "Preparing the engine"));
     Canvas canvas = canvasFor(wanted.list, wanted.fit);
-    made->content = std::make_shared<Playlist>(wanted.list, canvas, Attendance::attended, wanted.first);
+    made->beginning = wanted.beginning;
+    made->content =
+        std::make_shared<Playlist>(wanted.list, canvas, Attendance::attended, wanted.beginning.item);
     made->renderer = std::make_unique<TappedRenderer>(
         std::make_unique<EngineRenderer>(RendererSettings{wanted.calibration, canvas}, preparing,
                                          engine::FallbackBackend::Notify(),
@@ -110,6 +113,8 @@ void OutputProjection::play() {
                               [](const ProjectorWindow* window) { return window->surface().keepsStep(); });
   if (isSeen && !keepStep) engine_ = tr("%1, shown without OpenGL").arg(engine_);
   player_ = std::make_unique<Player>(std::move(made_->renderer), content_, windows);
+  player_->setBlack(made_->beginning.isBlack);
+  player_->setOverlay(made_->beginning.hasOverlay);
   // What these lead to ends the objects that tell it: later, when they are done telling.
   auto closeLater = [this] { QMetaObject::invokeMethod(this, [this] { close(); }, Qt::QueuedConnection); };
   // The player itself looks at the projectors' other keys.

@@ -28,7 +28,11 @@ class OutputProjection : public QObject {
     PlaylistSettings list;
     compensation::Fit fit = compensation::Fit::fit;
     std::vector<std::optional<ScreenIdentity>> screens;  // one a projector; none: it plays unseen
-    qsizetype first = 0;                                 // item of the list that it begins with
+    /// As it begins: with which item of the list, black, with figures over the picture.
+    struct Beginning {
+      qsizetype item = 0;
+      bool isBlack = false, hasOverlay = false;
+    } beginning{};
   };
 
   explicit OutputProjection(QObject* parent = nullptr);

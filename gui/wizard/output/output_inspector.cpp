@@ -151,7 +151,8 @@ void showProof(Remark& remark, OutputPage& page) {
   if (page.proof().wasPushedBack())
     return remark.show(
         Remark::Kind::watch, OutputPage::tr("The camera is back at its place"),
-        OutputPage::tr("What was found before that holds no more. Take a verification photograph."));
+        OutputPage::tr(
+            "What was found before may have come of that: a photograph shows what is left of it."));
   if (page.proof().isOutOfDate())
     return remark.show(
         Remark::Kind::warning, OutputPage::tr("The photograph is out of date"),

@@ -91,7 +91,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&projection_, &OutputProjection::progressed, this, &OutputPage::lookAtPicture);
   connect(&projection_, &OutputProjection::progressed, this, &OutputPage::tellProgress);
   connect(&projection_, &OutputProjection::changed, this, [this] {
-    session_.setShowing(isOpen() || reopenWith_);
+    session_.setShowing(isOpen() || reopening_);
     if (isOpen() != second_.isActive()) isOpen() ? second_.start() : second_.stop();
     lookAtPicture();
     tellProgress();
@@ -114,7 +114,7 @@ OutputPage::~OutputPage() {
 }
 
 void OutputPage::finish() {
-  reopenWith_.reset();
+  reopening_.reset();
   proof_.cancel();
   perfecting_.cancel();
   close();
@@ -132,13 +132,11 @@ StepStatus OutputPage::status() const {
   if (const QString work = photographicWork(); !work.isEmpty()) return {StepState::busy, work};
   if (isCovered()) return {StepState::busy, tr("Covered by %1").arg(session_.devicesUserName())};
   if (isContested()) return {StepState::busy, tr("Two shows at once"), false, true};
+  if (isBlack()) return {StepState::busy, tr("Black"), false, playsEarlier() || isDoubted()};
   if (playsEarlier()) return {StepState::busy, tr("Another correction"), false, true};
   if (isOpen() && isDoubted()) return {StepState::busy, tr("Not as predicted"), false, true};
   if (isOpen())
-    return {StepState::busy, isBlack()      ? tr("Black")
-                             : showsChart() ? tr("Test chart")
-                             : isFrozen()   ? tr("Frozen")
-                                            : tr("Playing")};
+    return {StepState::busy, showsChart() ? tr("Test chart") : isFrozen() ? tr("Frozen") : tr("Playing")};
   if (session_.isShownElsewhere()) return {StepState::busy, tr("Another program plays")};
   if (isDoubted()) return {StepState::doubtful, tr("Not as predicted")};
   if (proof_.isOutOfDate()) return {StepState::outOfDate, tr("Proof out of date")};
@@ -201,13 +199,17 @@ QString OutputPage::hint() const {
   if (auto missing = projectorWithoutScreen()) return screenHint(*missing);
   if (isContested())
     return tr("The output is open here and in another program: whose picture is seen is not known. End one.");
-  if (playsEarlier()) return tr("What plays is not what was measured or chosen last. Show that first.");
+  const auto evenIfBlack = [this](const QString& hint) {
+    return isBlack() ? tr("Black. %1").arg(hint) : hint;
+  };
+  if (playsEarlier())
+    return evenIfBlack(tr("What plays is not what was measured or chosen last. Show that first."));
   if (isOpen()) {
     const OutputProof::Next next = proof_.next();
     if (next == OutputProof::Next::install) return playingHint();
     if (next != OutputProof::Next::photograph)
       // Installed all the same: what was found of it stands.
-      return isInstalled() ? tr("Installed as it is. %1").arg(doubtedHint()) : doubtedHint();
+      return evenIfBlack(isInstalled() ? tr("Installed as it is. %1").arg(doubtedHint()) : doubtedHint());
     if (isBlack() || isFrozen() || showsChart() || (isInstalled() && !proof_.isUnsettled()))
       return playingHint();
     if (!isInstallable())

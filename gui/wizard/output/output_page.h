@@ -116,7 +116,7 @@ class OutputPage : public DevicePage {
   /// Not the one for films: how pictures that stand are solved. Empty: like films.
   QString stillMethod() const;
 
-  void open() { openWith(0); }
+  void open() { openWith({}); }
   void close();
   /// What is measured or chosen has become newer than what the output was opened with and goes on playing.
   bool playsEarlier() const { return isOpen() && playsFrom_ != session_.shownFrom(); }
@@ -206,7 +206,7 @@ class OutputPage : public DevicePage {
   void edit(const QString& what, const PlaylistSettings& after);
   void setPlaylist(const PlaylistSettings& settings);
   void whileClosed(const std::function<void()>& work);
-  void openWith(qsizetype item);
+  void openWith(const OutputProjection::Wanted::Beginning& beginning);
   void closeForNow();
   void reopen();
   void repairEnded();
@@ -235,11 +235,11 @@ class OutputPage : public DevicePage {
   std::vector<OutputScreen> screens_;
   // A projector's. What was chosen stays chosen while it is unplugged.
   std::vector<std::optional<OutputScreen>> wished_;
-  std::vector<std::optional<std::size_t>> chosen_;  // where that is among screens_
-  std::string playsFrom_;                           // what the output was opened with
-  std::vector<ScreenIdentity> screensBefore_;       // the calibration's
-  std::optional<qsizetype> reopenWith_;             // when the photographs are taken: the item that played
-  QString preferred_;                               // Preview's picture
+  std::vector<std::optional<std::size_t>> chosen_;                // where that is among screens_
+  std::string playsFrom_;                                         // what the output was opened with
+  std::vector<ScreenIdentity> screensBefore_;                     // the calibration's
+  std::optional<OutputProjection::Wanted::Beginning> reopening_;  // when the photographs are taken
+  QString preferred_;                                             // Preview's picture
   QString config_;
   InstalledShow installed_ = InstalledShow::none;
   QDateTime installedAt_;  // this venue's

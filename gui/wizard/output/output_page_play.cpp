@@ -23,8 +23,8 @@ QString OutputPage::figures() const {
   const PlayerStatistics s = projection_.statistics();
   if (!isOpen() || !missingScreen().isEmpty() || isCovered() || s.frames == 0) return {};
   if (isContested()) return tr("Perhaps under another program's picture");
-  if (playsEarlier()) return tr("Another correction");
   if (isBlack()) return tr("Black");
+  if (playsEarlier()) return tr("Another correction");
   if (showsChart()) return tr("Test chart");
   if (s.perfected) return tr("still picture, perfected by photographs");
   if (const std::optional<LiveState> live = livePlaying(); live && live->phase != LiveState::Phase::playing)
@@ -136,7 +136,7 @@ QString OutputPage::stillMethod() const {
   return method == compensation::Method::refined ? QString() : methodName(method);
 }
 
-void OutputPage::openWith(qsizetype item) {
+void OutputPage::openWith(const OutputProjection::Wanted::Beginning& beginning) {
   if (isOpen() || projection_.isOpening() || projectorWithoutScreen() || playlist_.isEmpty() ||
       !session_.areDevicesFree())
     return;
@@ -154,21 +154,21 @@ void OutputPage::openWith(qsizetype item) {
   }
   if (earlier_) results = earlier_->path();
   playsFrom_ = session_.shownFrom();
-  projection_.open({results, playlist_.settings(), session_.settings().content.fit, screens, item});
+  projection_.open({results, playlist_.settings(), session_.settings().content.fit, screens, beginning});
 }
 
 void OutputPage::close() {
   projection_.close();
 }
 
-/// The show goes on, where it is in its list.
+/// The show goes on as it is, black if it is, where it is in its list.
 void OutputPage::closeForNow() {
-  reopenWith_ = projection_.playing();
+  reopening_ = {projection_.playing(), isBlack(), projection_.hasOverlay()};
   close();
 }
 
 void OutputPage::reopen() {
-  if (const auto item = std::exchange(reopenWith_, std::nullopt)) openWith(*item);
+  if (const auto beginning = std::exchange(reopening_, std::nullopt)) openWith(*beginning);
 }
 
 void OutputPage::renew() {

@@ -306,10 +306,17 @@ class TestWhatPlays : public QObject, private OutputOnVenue {
     QTRY_COMPARE_WITH_TIMEOUT(page_->projection().playing(), qsizetype{1}, patience);
     change([](pipeline::CalibrateSettings& settings) { settings.content.reachablePercentile = 40.0; });
     QVERIFY(page_->playsEarlier());
+    // Nor is black lifted, which is said, whatever stands beside it.
+    page_->setBlack(true);
+    QCOMPARE(page_->status().result, OutputPage::tr("Black"));
+    QVERIFY(page_->status().isHeldUp && page_->hint().contains("Black"));
     page_->renew();
     QVERIFY(!page_->isOpen());
     QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !playing().isEmpty(), patience);
     QCOMPARE(playing(), first);
+    QVERIFY(page_->isBlack());
+    QCOMPARE(page_->status().result, OutputPage::tr("Black"));
+    QTRY_VERIFY(!page_->projection().onProjector().isNull());
   }
 
   /// Law: the list that is seen is the one that plays, also when a picture comes to it from Preview: what is

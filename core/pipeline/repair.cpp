@@ -189,19 +189,20 @@ class Repairing {
       Progress proving = progress.part(
           0.2, RELUCENT_MESSAGE("stage.photographing-projections", "Photographing the projections"));
       const MeasuredCalibration now = renewed(renewal.acquisition, proving);
-      calibration::ContentResult predicted = prove(now, result, proving);
+      const image::Image shown = provedPicture(settings_, chosen_.content),
+                         own = provedPicture({}, chosen_.content);
+      calibration::ContentResult predicted = prove(shown, now, result, proving);
       result.end = isBetter(result) ? RepairEnd::repaired : RepairEnd::notBetter;
       result.seconds = watch.seconds();
       if (result.end == RepairEnd::repaired) {
+        // What is kept of the content is of its own picture, whichever was photographed.
+        if (shown != own) {
+          const compensation::Target target = targetOfNow(own, now, result.change);
+          predicted = predictedOf(now, target, solved(now, target, proving));
+        }
         Progress writing =
             progress.part(0.05, RELUCENT_MESSAGE("stage.writing-results", "Writing the results"));
         writing.report(0.0);
-        // What is kept of the content is of its own picture, whichever was photographed.
-        if (!settings_.image.empty()) {
-          const compensation::Target own =
-              targetOfNow(provedPicture({}, chosen_.content), now, result.change);
-          predicted = predictedOf(now, own, solved(now, own, writing));
-        }
         commit(renewal.acquisition, now, result, predicted);
       }
     }
@@ -267,8 +268,8 @@ class Repairing {
 
   /// The same picture as a show has it by the former T and by the new one, both photographed and compared
   /// with what can be wanted, where it stood, under the light of now. Returns what is predicted of it.
-  calibration::ContentResult prove(const MeasuredCalibration& now, RepairResult& result, Progress& progress) {
-    const image::Image content = provedPicture(settings_, chosen_.content);
+  calibration::ContentResult prove(const image::Image& content, const MeasuredCalibration& now,
+                                   RepairResult& result, Progress& progress) {
     const compensation::Target target = targetOfNow(content, now, result.change);
     const compensation::Compensation renewedPicture = solved(now, target, progress),
                                      former = solved(

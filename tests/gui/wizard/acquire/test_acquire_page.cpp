@@ -20,6 +20,7 @@
 #include "wizard/acquire/outlook_view.h"
 #include "wizard/acquire/retrying_observer.h"
 #include "wizard/devices/device_selector.h"
+#include "wizard/devices/on_measurement.h"
 #include "wizard/venue/recent_venues.h"
 
 using namespace relucent;
@@ -376,6 +377,9 @@ class TestAcquirePage : public QObject {
     const Banner banner = page.banner().value();
     QVERIFY2(banner.more.contains(QString::number(page.photographsOfNew())), qPrintable(banner.more));
     QVERIFY(banner.command == nullptr && page.primary()->isEnabled());
+    // The pages that follow from it say the same.
+    const auto elsewhere = [&] { return onMeasurement(*session_, nullptr).value_or(Banner()).sentence; };
+    QCOMPARE(elsewhere(), banner.sentence);
     QCOMPARE(page.primary()->text(), AcquirePage::tr("Resume"));
     page.primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
@@ -384,6 +388,7 @@ class TestAcquirePage : public QObject {
     page.setFineness(Fineness::fast);
     QCOMPARE(page.primary()->text(), AcquirePage::tr("Measure with these settings"));
     QVERIFY(page.banner() && page.banner()->command == nullptr);
+    QVERIFY2(elsewhere().contains("earlier settings"), qPrintable(elsewhere()));
   }
 
   /// Law: from a measurement that was stopped and kept in place of a whole one, that is gone back to.

@@ -42,6 +42,11 @@ endif()
 # build's time is their compiling.
 set(RELUCENT_TEST_OBJECTS "" CACHE PATH "A build whose tests' objects are linked here instead of compiled")
 
+# Sources are named as they lie in the project: the same sources give the same programs in any folder.
+if(RELUCENT_PACKAGE AND NOT MSVC)
+  target_compile_options(relucent_options INTERFACE -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+endif()
+
 # What users get reads files of strangers: overruns end the program, and where functions are found cannot be changed.
 if(RELUCENT_PACKAGE AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
   target_compile_options(relucent_options INTERFACE -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)

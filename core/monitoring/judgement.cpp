@@ -61,13 +61,14 @@ void Judgement::add(const Look& look, double seconds) {
   const bool isUnrecognised = look.use == Look::Use::unrecognised;
   if (light.light > settings_.lit) unrecognised_.add(seconds, isUnrecognised ? 1.0 : 0.0, 0.0);
   if (!isUnrecognised) {
-    const double misled = settings_.misled * (1.0 - light.recognised);
-    for (std::size_t k = 0; k < gain_.size(); ++k)
-      addTo(gain_[k], gainReference_[k], seconds, light.gain[k] - 1.0,
-            std::hypot(light.deviation[k], misled));
-    for (std::size_t j = 0; j < total_.size(); ++j)
+    for (std::size_t j = 0; j < total_.size(); ++j) {
+      const double misled = settings_.misled * (1.0 - light.recognisedOf[j]);
       addTo(total_[j], totalReference_[j], seconds, light.total[j] - 1.0,
             std::hypot(light.totalDeviation[j], misled));
+      for (std::size_t k = 3 * j; k < 3 * j + 3; ++k)
+        addTo(gain_[k], gainReference_[k], seconds, light.gain[k] - 1.0,
+              std::hypot(light.deviation[k], misled));
+    }
     for (std::size_t c = 0; c < cell_.size(); ++c)
       cell_[c].add(seconds, std::clamp(light.cells[c].share - 1.0, -1.0, 1.0), light.cells[c].deviation);
     if (light.light > settings_.lit) {

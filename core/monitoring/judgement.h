@@ -27,8 +27,10 @@ struct MonitorSettings {
   LastingSettings ofCell{50.0, 40.0, 8, 0.12, 0.03, 0.86, 0.7, 0.9};
   ReferenceSettings reference{};  // of gains
   LastingSettings ofRecognition{45.0, 25.0, 8, 10.0, 1.0, 0.85, 0.7};
-  double lit = 0.003;   // mean light, of the flood image: below it nothing can be recognised, or be missing
-  double misled = 0.1;  // deviation of gains if all of the light were not as predicted: visitors' rims
+  double lit = 0.003;  // mean light, of the flood image: below it nothing can be recognised, or be missing
+  /// Deviation of a projector's gains if none of its light were as predicted: visitors darken what is beside
+  /// them.
+  double misled = 0.15;
 };
 /// What is wrong with the settings; empty: nothing.
 std::vector<Message> problems(const MonitorSettings& settings);

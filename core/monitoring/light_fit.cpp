@@ -216,7 +216,7 @@ LightFit fitLight(const Observed& seen, const Moment& moment, const WatchedVenue
     fit.deviation.push_back(std::sqrt(std::max(0.0, covariance(i, i))));
   }
   // The channels of a projector by their light, so that one that is hardly used counts for little.
-  std::vector<double> light(3 * projectors, 0.0);
+  std::vector<double> light(3 * projectors, 0.0), lightAsPredicted(projectors, 0.0);
   double predicted = 0.0, flood = 0.0, asPredicted = 0.0;
   for (std::size_t row = 0; row < rows.at.size(); ++row) {
     double here = 0.0;
@@ -226,14 +226,17 @@ LightFit fitLight(const Observed& seen, const Moment& moment, const WatchedVenue
     }
     predicted += here;
     flood += venue.flood[rows.at[row]];
-    if (std::abs(regression.residual(row)) < recognisedWithin * std::sqrt(regression.variance(row)))
+    if (std::abs(regression.residual(row)) < recognisedWithin * std::sqrt(regression.variance(row))) {
       asPredicted += here;
+      for (std::size_t k = 0; k < 3 * projectors; ++k) lightAsPredicted[k / 3] += rows.of(row)[k];
+    }
   }
   for (std::size_t j = 0; j < projectors; ++j) {
     const double sum = light[3 * j] + light[3 * j + 1] + light[3 * j + 2];
     const auto first = static_cast<Eigen::Index>(3 * j);
     Eigen::Vector3d weight = Eigen::Vector3d::Constant(1.0 / 3.0);
     if (sum > 0.0) weight = Eigen::Vector3d(light[3 * j], light[3 * j + 1], light[3 * j + 2]) / sum;
+    fit.recognisedOf.push_back(sum > 0.0 ? lightAsPredicted[j] / sum : 0.0);
     fit.total.push_back(weight.dot(theta.segment<3>(first)));
     fit.totalDeviation.push_back(
         std::sqrt(std::max(0.0, weight.dot(covariance.block<3, 3>(first, first) * weight))));

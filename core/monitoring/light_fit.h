@@ -18,8 +18,10 @@ struct LightFit {
   std::vector<double> gain, deviation;        // per projector and channel: 1 as it was measured
   std::vector<double> total, totalDeviation;  // per projector: all channels together
   std::vector<double> room;                   // per camera channel, of e; then of the flood image
-  /// Share of the predicted light that lies where the photograph is as these say.
+  /// Share of the predicted light that lies where the photograph is as these say; likewise of each
+  /// projector's.
   double recognised = 0.0;
+  std::vector<double> recognisedOf;
   double light = 0.0;  // mean predicted light, of the flood image
   std::vector<CellLight> cells;
   std::vector<float> predicted;  // radiance at all samples, three values each, as these say

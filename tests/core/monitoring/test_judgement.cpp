@@ -24,6 +24,7 @@ Look asMeasured(std::uint64_t number) {
   look.light.total = {1.0 + 0.003 * random.normal()};
   look.light.totalDeviation = {0.006};
   look.light.recognised = 1.0;
+  look.light.recognisedOf = {1.0};
   look.light.light = 0.3;
   look.light.cells.assign(cells.count(), {1.0, 0.03});
   look.shift.deviation = 0.05;
@@ -33,11 +34,13 @@ Look asMeasured(std::uint64_t number) {
 /// Without most of the light in the left part of the view, below the uppermost cells.
 void shadow(Look& look) {
   look.light.recognised = 0.8;
+  look.light.recognisedOf = {0.8};
   for (std::size_t cell : {4u, 5u, 8u, 9u}) look.light.cells[cell].share = 0.1;
 }
 /// With visitors who take a little of the light beside them too.
 void visit(Look& look) {
   look.light.recognised = 0.8;
+  look.light.recognisedOf = {0.8};
   look.light.total[0] -= 0.025;
 }
 
@@ -102,6 +105,33 @@ class TestJudgement : public QObject {
     }
     QCOMPARE(toldAt > 0.0, !told.isEmpty());
     QVERIFY2(toldAt <= 15 * interval + 60.0, qPrintable(QString::number(toldAt)));
+  }
+
+  /// Law: visitors in one projector's light make its light uncertain, whatever the others' share of the view
+  /// is, and no other's.
+  void visitorsConcernTheProjectorInWhoseLightTheyStand_data() {
+    QTest::addColumn<std::size_t>("faded");
+    QTest::addColumn<bool>("isTold");
+    QTest::newRow("what seems to have faded is behind the visitors") << std::size_t(3) << false;
+    QTest::newRow("what faded is another projector") << std::size_t(1) << true;
+  }
+  void visitorsConcernTheProjectorInWhoseLightTheyStand() {
+    QFETCH(std::size_t, faded);
+    QFETCH(bool, isTold);
+    constexpr std::size_t projectors = 4;
+    Judgement judgement(projectors, cells, {});
+    for (int number = 0; number < 15; ++number) {
+      Look look = asMeasured(static_cast<std::uint64_t>(number));
+      look.light.gain.assign(3 * projectors, 1.0);
+      look.light.deviation.assign(3 * projectors, 0.006);
+      look.light.total.assign(projectors, 1.0);
+      look.light.totalDeviation.assign(projectors, 0.006);
+      look.light.recognisedOf = {1.0, 1.0, 1.0, 0.8};
+      look.light.recognised = 0.95;
+      look.light.total[faded] -= 0.045;
+      judgement.add(look, interval * number);
+    }
+    QCOMPARE(!judgement.findings().empty(), isTold);
   }
 };
 

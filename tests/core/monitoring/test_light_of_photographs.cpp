@@ -113,6 +113,37 @@ class TestLightOfPhotographs : public QObject {
     QVERIFY(fit.recognised > 0.75 && fit.recognised < 0.97);
   }
 
+  /// Law: whose light somebody stands in is said of each projector, and all of them together is their mean by
+  /// light.
+  void whoseLightIsNotAsPredictedIsSaid_data() {
+    QTest::addColumn<int>("from");
+    QTest::addColumn<QVector<double>>("least");
+    QTest::addColumn<QVector<double>>("most");
+    // Each projector lights one half with ten of thirteen parts of its light.
+    QTest::newRow("nobody") << syntheticSize.width << QVector<double>{0.999, 0.999}
+                            << QVector<double>{1.0, 1.0};
+    QTest::newRow("in the left one's") << 2 << QVector<double>{0.7, 0.9} << QVector<double>{0.9, 0.97};
+    QTest::newRow("in the right one's") << 32 << QVector<double>{0.9, 0.7} << QVector<double>{0.97, 0.9};
+  }
+  void whoseLightIsNotAsPredictedIsSaid() {
+    QFETCH(int, from);
+    QFETCH(QVector<double>, least);
+    QFETCH(QVector<double>, most);
+    const ProjectorStack picture(3 * 2 * syntheticSize.count(), 0.5f);
+    std::vector<float> radiance = radianceOf(transport_, venue_, picture);
+    for (std::size_t i = 0; i < syntheticSize.count(); ++i)
+      if (const int x = pixelAt(syntheticSize, i).x; x >= from && x < from + 4)
+        for (std::size_t c = 0; c < 3; ++c) radiance[3 * i + c] *= 0.05f;
+    const LightFit fit = fitLight(observed(radiance), stillMoment(picture), venue_);
+    QCOMPARE(fit.recognisedOf.size(), std::size_t(2));
+    for (std::size_t j = 0; j < 2; ++j)
+      QVERIFY2(fit.recognisedOf[j] >= least[static_cast<int>(j)] &&
+                   fit.recognisedOf[j] <= most[static_cast<int>(j)],
+               qPrintable(QString("%1: %2").arg(j).arg(fit.recognisedOf[j])));
+    QVERIFY(fit.recognised >= std::ranges::min(fit.recognisedOf) - 1e-9);
+    QVERIFY(fit.recognised <= std::ranges::max(fit.recognisedOf) + 1e-9);
+  }
+
   void roomLightIsNoFadedLamp_data() {
     QTest::addColumn<double>("more");
     QTest::newRow("as measured") << 0.0;

@@ -20,6 +20,7 @@
 #include "relucent/pipeline/perfected.h"
 #include "relucent/pipeline/proof_record.h"
 #include "relucent/platform/process.h"
+#include "text/written_times.h"
 
 namespace relucent::gui {
 namespace {
@@ -369,7 +370,7 @@ void Show::tend() {
   makeWay();
   pipeline::NightSettings work = nights_->work();
   work.set = playing_.opened;
-  work.when = now.toUTC().toString(Qt::ISODate).toStdString();
+  work.when = written(now);
   photographs_.tend(work, settings_.switchesPower);
 }
 

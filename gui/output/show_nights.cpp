@@ -5,6 +5,7 @@
 
 #include "output/output_playlist.h"
 #include "relucent/base/error.h"
+#include "text/written_times.h"
 
 namespace relucent::gui {
 namespace {
@@ -14,7 +15,7 @@ QString englishOf(const Message& sentence) {
 }
 
 QDateTime timeOf(const pipeline::NightRecord& night) {
-  return QDateTime::fromString(QString::fromStdString(night.when), Qt::ISODate);
+  return timeWritten(night.when);
 }
 
 }  // namespace
@@ -62,7 +63,7 @@ void ShowNights::ended(const QDateTime& now, const Message& failure) {
 
 pipeline::NightRecord ShowNights::recordAt(const QDateTime& now) const {
   pipeline::NightRecord record;
-  record.when = now.toUTC().toString(Qt::ISODate).toStdString();
+  record.when = written(now);
   return record;
 }
 

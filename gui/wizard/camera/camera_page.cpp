@@ -8,6 +8,7 @@
 
 #include "relucent/base/message.h"
 #include "text/message_text.h"
+#include "text/written_times.h"
 #include "views/number_text.h"
 
 namespace relucent::gui {
@@ -134,7 +135,7 @@ StepStatus CameraPage::status() const {
   if (const auto& result = session_.result(calibration::Stage::camera)) {
     const double bright = keptTooBright();
     if (bright > mostTooBright) return {StepState::doubtful, tr("%1 too bright").arg(percentText(bright))};
-    QDateTime when = QDateTime::fromString(QString::fromStdString(result->stored), Qt::ISODate).toLocalTime();
+    QDateTime when = timeWritten(result->stored).toLocalTime();
     return {StepState::done, tr("Checked %1").arg(QLocale().toString(when.time(), QLocale::ShortFormat))};
   }
   // By the command line, where nobody looks first: what was measured is not locked behind a look.

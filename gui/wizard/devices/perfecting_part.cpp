@@ -9,6 +9,7 @@
 
 #include "output/output_playlist.h"
 #include "text/message_text.h"
+#include "text/written_times.h"
 #include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -35,7 +36,7 @@ QString nameOf(const QString& picture) {
 }
 
 QString dateText(const std::string& iso) {
-  const QDateTime when = QDateTime::fromString(QString::fromStdString(iso), Qt::ISODate).toLocalTime();
+  const QDateTime when = timeWritten(iso).toLocalTime();
   return QLocale().toString(when, QLocale::ShortFormat);
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "text/message_text.h"
+#include "text/written_times.h"
 #include "views/line_chart.h"
 #include "views/number_text.h"
 
@@ -23,7 +24,7 @@ constexpr double drawnDays = 84.0, leastDays = 7.0;
 constexpr double secondsADay = 86400.0;
 
 QDateTime timeOf(const pipeline::NightRecord& night) {
-  return QDateTime::fromString(QString::fromStdString(night.when), Qt::ISODate);
+  return timeWritten(night.when);
 }
 
 std::optional<double> figureOf(const std::optional<pipeline::PictureError>& error, NightFigure figure) {

@@ -7,6 +7,7 @@
 #include <QLocale>
 #include <cmath>
 
+#include "text/written_times.h"
 #include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -117,8 +118,7 @@ QString reasonOf(const OutputPage& page, const pipeline::ProvedView& figures) {
 bool wasPerfectedSince(OutputPage& page, const Proof& proof) {
   const Perfecting& perfecting = page.perfecting();
   if (!perfecting.known() || proof.picture.isEmpty() || proof.picture != perfecting.picture()) return false;
-  return QDateTime::fromString(QString::fromStdString(perfecting.known()->perfected), Qt::ISODate) >
-         proof.taken;
+  return timeWritten(perfecting.known()->perfected) > proof.taken;
 }
 
 /// Where the part is that looks otherwise; nothing where nobody kept that.
@@ -221,8 +221,7 @@ void showDrift(Remark& remark, const OutputProof& proof, bool hasMoved) {
                        OutputPage::tr("The check was ended: the room is not said to be clear"),
                        OutputPage::tr("It came to no result. Check again when the room is clear."));
   if (drift == nullptr) return;
-  const QDateTime checked =
-      QDateTime::fromString(QString::fromStdString(drift->checked), Qt::ISODate).toLocalTime();
+  const QDateTime checked = timeWritten(drift->checked).toLocalTime();
   QString meaning =
       OutputPage::tr("Checked %1.").arg(timeText(checked)) + '\n' +
       OutputPage::tr("Error of the test patterns: %1, when measured %2. %3 of the view changed.")

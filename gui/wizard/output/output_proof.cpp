@@ -9,6 +9,7 @@
 #include "relucent/base/file.h"
 #include "relucent/pipeline/verify.h"
 #include "relucent/report/report.h"
+#include "text/written_times.h"
 #include "wizard/output/proof_file.h"
 
 namespace relucent::gui {
@@ -37,7 +38,7 @@ std::shared_ptr<Proof> proofOf(pipeline::ProveResult figures, const fs::path& fo
 }
 
 QDateTime timeOf(const pipeline::DriftRecord& drift) {
-  return QDateTime::fromString(QString::fromStdString(drift.checked), Qt::ISODate);
+  return timeWritten(drift.checked);
 }
 
 /// So that nobody asks for the former again because of the latter.
@@ -241,7 +242,7 @@ void OutputProof::checkDrift() {
     rig::Rig& rig = work.devices->open(opening);
     Progress verifying = progress.part(0.7, RELUCENT_MESSAGE("stage.checking-drift", "Checking for drift"));
     const pipeline::VerifyResult result = pipeline::verifyCalibration(work.path, {}, rig, verifying);
-    found->drift = pipeline::DriftRecord{QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString(),
+    found->drift = pipeline::DriftRecord{written(QDateTime::currentDateTime()),
                                          measurement,
                                          result.judgement.verdict,
                                          result.found.error,

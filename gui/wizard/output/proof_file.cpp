@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "relucent/image/exr.h"
+#include "text/written_times.h"
 
 namespace relucent::gui {
 namespace {
@@ -30,12 +31,8 @@ std::vector<ProofView> proofViews(const fs::path& folder, std::size_t cameras) {
 }
 
 pipeline::ProofRecord recordOf(const Proof& proof) {
-  return {proof.taken.toUTC().toString(Qt::ISODate).toStdString(),
-          proof.measured,
-          proof.shownFrom,
-          proof.content,
-          proof.figures,
-          proof.picture.toStdString()};
+  return {written(proof.taken), proof.measured, proof.shownFrom,
+          proof.content,        proof.figures,  proof.picture.toStdString()};
 }
 
 void saveProof(const Proof& proof, const fs::path& folder) {
@@ -47,7 +44,7 @@ std::shared_ptr<const Proof> loadProof(const fs::path& folder) {
     const std::optional<pipeline::ProofRecord> record = pipeline::loadProofRecord(folder);
     if (!record) return nullptr;
     auto proof = std::make_shared<Proof>();
-    proof->taken = QDateTime::fromString(QString::fromStdString(record->taken), Qt::ISODate).toLocalTime();
+    proof->taken = timeWritten(record->taken).toLocalTime();
     proof->measured = record->measurement;
     proof->shownFrom = record->shownFrom;
     proof->picture = QString::fromStdString(record->picture);

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 
 #include "text/message_text.h"
+#include "text/written_times.h"
 #include "theme/action_button.h"
 #include "theme/controls.h"
 #include "views/number_text.h"
@@ -52,8 +53,7 @@ void showState(Remark& remark, const OutputProof& proof) {
   const bool isVain = showVain(remark, proof);
   remark.setVisible(isVain || note.has_value());
   if (isVain || !note) return;
-  const QDateTime when =
-      QDateTime::fromString(QString::fromStdString(proof.repairedAt()), Qt::ISODate).toLocalTime();
+  const QDateTime when = timeWritten(proof.repairedAt()).toLocalTime();
   remark.show(Remark::Kind::good,
               OutputPage::tr("Repaired, %1").arg(QLocale().toString(when, QLocale::ShortFormat)),
               sentences(note->what) + '\n' +

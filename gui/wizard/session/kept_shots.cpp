@@ -9,6 +9,7 @@
 
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
+#include "text/written_times.h"
 
 namespace relucent::gui {
 namespace fs = std::filesystem;
@@ -26,8 +27,7 @@ int photographsSince(const fs::path& calibration, const std::optional<calibratio
                      calibration::Stage stage) {
   if (!stored) return 0;
   // Stored to the second, in which the last photographs of before may have been taken.
-  const QDateTime when =
-      QDateTime::fromString(QString::fromStdString(stored->stored), Qt::ISODate).addSecs(1);
+  const QDateTime when = timeWritten(stored->stored).addSecs(1);
   const QString begin = QString::fromUtf8(nameOf(stage)) + '-';
   const QDir shots(QString::fromStdString((calibration / "shots").string()));
   const QFileInfoList files = shots.entryInfoList({begin + '*'}, QDir::Files);

@@ -5,6 +5,7 @@
 #include <QFileInfo>
 
 #include "relucent/pipeline/pictures.h"
+#include "text/written_times.h"
 #include "views/colour_map.h"
 
 namespace relucent::gui {
@@ -18,8 +19,7 @@ QString fileIn(const QString& folder) {
 
 bool isNewerThan(const QString& file, const std::string& stored) {
   const QFileInfo found(file);
-  return found.exists() &&
-         found.lastModified() >= QDateTime::fromString(QString::fromStdString(stored), Qt::ISODate);
+  return found.exists() && found.lastModified() >= timeWritten(stored);
 }
 
 }  // namespace

@@ -35,6 +35,10 @@ if(RELUCENT_SANITIZERS)
   if(RELUCENT_SANITIZERS MATCHES "address")
     target_compile_definitions(relucent_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   endif()
+  # What keeps the tasks of the packaged TBB apart is not seen by this one, which takes all of them for races.
+  if(RELUCENT_SANITIZERS MATCHES "thread")
+    target_include_directories(relucent_options INTERFACE ${PROJECT_SOURCE_DIR}/tests/support/seen_threads)
+  endif()
   target_link_options(relucent_options INTERFACE -fsanitize=${RELUCENT_SANITIZERS})
 endif()
 
@@ -137,9 +141,10 @@ endfunction()
 #   ROWS 6              so many rows of each of its tables, see tests/support/some-rows: where all take more than half a
 #                       minute, on one path; tests/long has all
 #   SANITIZED_ROWS 3    the same under sanitizers
+#   THREADS             it does several things at a time: of those that the thread sanitizer looks at, see tests/long
 # RELUCENT_TEST_PRELUDE, if set, names the prelude of a folder's tests.
 function(relucent_test source)
-  cmake_parse_arguments(ARG "" "TIMEOUT;WITHIN;ROWS;SANITIZED_ROWS" "USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "THREADS" "TIMEOUT;WITHIN;ROWS;SANITIZED_ROWS" "USES;LIBRARIES" ${ARGN})
   get_filename_component(name ${source} NAME_WE)
   # Not AUTOMOC, which takes longer over each of many small targets than their moc.
   set(moc ${CMAKE_CURRENT_BINARY_DIR}/${name}.moc)
@@ -169,10 +174,21 @@ function(relucent_test source)
   elseif(rows)
     set(command ${PROJECT_SOURCE_DIR}/tests/support/some-rows ${rows} $<TARGET_FILE:${name}>)
   endif()
-  add_test(NAME ${name} COMMAND ${command})
-  if(rows)
-    set_tests_properties(${name} PROPERTIES LABELS some-rows)  # by which tests/long finds them
+  if(RELUCENT_SANITIZERS MATCHES "thread")
+    list(PREPEND command ${PROJECT_SOURCE_DIR}/tests/support/seen-threads)
+    list(TRANSFORM command REPLACE "^${name}$" "$<TARGET_FILE:${name}>")
   endif()
+  add_test(NAME ${name} COMMAND ${command})
+  # By which tests/long finds them.
+  set(labels "")
+  if(rows)
+    list(APPEND labels some-rows)
+  endif()
+  if(ARG_THREADS)
+    list(APPEND labels threads)
+    add_dependencies(relucent_tests_of_threads ${name})
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${labels}")
   if(ARG_TIMEOUT)
     set_tests_properties(${name} PROPERTIES COST ${ARG_TIMEOUT})  # long ones first: none runs alone at the end
   else()

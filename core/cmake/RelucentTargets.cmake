@@ -194,6 +194,9 @@ function(relucent_test source)
   else()
     set(ARG_TIMEOUT 300)
   endif()
+  if(RELUCENT_SANITIZERS MATCHES "thread")  # which takes ten times as long
+    math(EXPR ARG_TIMEOUT "4 * ${ARG_TIMEOUT}")
+  endif()
   # Qt Test has a limit of its own, 300 s for each function, whatever ctest allows.
   set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE 77
     ENVIRONMENT "QTEST_FUNCTION_TIMEOUT=${ARG_TIMEOUT}000;RELUCENT_CLI=$<TARGET_FILE_DIR:${name}>/relucent-cli;RELUCENT_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data;RELUCENT_TEST_DATA=${PROJECT_SOURCE_DIR}/tests/data")

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "relucent/monitoring/tukey.h"
 
@@ -216,34 +217,32 @@ LightFit fitLight(const Observed& seen, const Moment& moment, const WatchedVenue
     fit.deviation.push_back(std::sqrt(std::max(0.0, covariance(i, i))));
   }
   // The channels of a projector by their light, so that one that is hardly used counts for little.
-  std::vector<double> light(3 * projectors, 0.0), lightAsPredicted(projectors, 0.0);
-  double predicted = 0.0, flood = 0.0, asPredicted = 0.0;
+  std::vector<double> light(3 * projectors, 0.0), asPredicted(projectors, 0.0);
+  double flood = 0.0;
   for (std::size_t row = 0; row < rows.at.size(); ++row) {
-    double here = 0.0;
+    const bool isAsPredicted =
+        std::abs(regression.residual(row)) < recognisedWithin * std::sqrt(regression.variance(row));
     for (std::size_t k = 0; k < 3 * projectors; ++k) {
       light[k] += rows.of(row)[k];
-      here += rows.of(row)[k];
+      if (isAsPredicted) asPredicted[k / 3] += rows.of(row)[k];
     }
-    predicted += here;
     flood += venue.flood[rows.at[row]];
-    if (std::abs(regression.residual(row)) < recognisedWithin * std::sqrt(regression.variance(row))) {
-      asPredicted += here;
-      for (std::size_t k = 0; k < 3 * projectors; ++k) lightAsPredicted[k / 3] += rows.of(row)[k];
-    }
   }
+  const double predicted = std::accumulate(light.begin(), light.end(), 0.0);
   for (std::size_t j = 0; j < projectors; ++j) {
     const double sum = light[3 * j] + light[3 * j + 1] + light[3 * j + 2];
     const auto first = static_cast<Eigen::Index>(3 * j);
     Eigen::Vector3d weight = Eigen::Vector3d::Constant(1.0 / 3.0);
     if (sum > 0.0) weight = Eigen::Vector3d(light[3 * j], light[3 * j + 1], light[3 * j + 2]) / sum;
-    fit.recognisedOf.push_back(sum > 0.0 ? lightAsPredicted[j] / sum : 0.0);
+    fit.recognisedOf.push_back(sum > 0.0 ? asPredicted[j] / sum : 0.0);
     fit.total.push_back(weight.dot(theta.segment<3>(first)));
     fit.totalDeviation.push_back(
         std::sqrt(std::max(0.0, weight.dot(covariance.block<3, 3>(first, first) * weight))));
   }
   for (Eigen::Index k = 0; k < 6; ++k)
     fit.room.push_back(theta[static_cast<Eigen::Index>(3 * projectors) + k]);
-  fit.recognised = predicted > 0.0 ? asPredicted / predicted : 0.0;
+  fit.recognised =
+      predicted > 0.0 ? std::accumulate(asPredicted.begin(), asPredicted.end(), 0.0) / predicted : 0.0;
   fit.light = flood > 0.0 ? predicted / flood : 0.0;
   fit.cells = cellsOf(rows, regression, seen, venue);
 

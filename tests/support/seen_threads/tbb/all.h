@@ -23,8 +23,8 @@ namespace seen {
 
 inline constexpr std::size_t threads = 3;  // of a loop, that of its caller among them
 inline thread_local bool isWithinLoop = false;
-inline thread_local const std::atomic<bool>* isCancelled =
-    nullptr;  // of the group whose task this thread does
+/// Of the group whose task this thread does.
+inline thread_local const std::atomic<bool>* isCancelled = nullptr;
 
 /// The first exception of several threads.
 class Failure {

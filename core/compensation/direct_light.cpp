@@ -51,18 +51,21 @@ DirectLook DirectLeaves::lookOf(const transport::LeafRow& leaves) const {
 
 LookedAtRow::LookedAtRow(const DirectLeaves& rule, const transport::LeafRow& leaves)
     : rule_(rule), places_(rule.reach_.size()) {
+  std::vector<Eigen::Array3f> sums;  // over the camera's channels, of each of the row's colours
+  for (std::size_t k = 0; k < leaves.colourings(); ++k)
+    sums.push_back(leaves.colours(k).colwise().sum().transpose().array());
   leaves_.reserve(leaves.size());
-  for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+  leaves.eachFactor([&](std::size_t entry, std::size_t k, const Eigen::Array3f& factor) {
     const transport::Node node = rule.layout_.node(leaves.column(entry));
     Leaf& leaf = leaves_.emplace_back();
     leaf.block = rule.layout_.block(node);
     leaf.projector = static_cast<std::size_t>(node.projector);
-    leaf.sum = leaves.block(entry).sum();
+    leaf.sum = (sums[k] * factor).sum();
     leaf.light = leaf.sum / static_cast<float>(leaf.block.count());
     Place& place = places_[leaf.projector];
     if (leaf.light > place.light)
       place = {leaf.light, 0.5 * (leaf.block.x0 + leaf.block.x1), 0.5 * (leaf.block.y0 + leaf.block.y1)};
-  }
+  });
 }
 
 DirectLook LookedAtRow::look() const {
@@ -107,6 +110,20 @@ std::vector<DirectLook> directLooks(const transport::TransportMatrix& transport,
 CameraMask directlyLit(const std::vector<DirectLook>& looks, double leastShare) {
   CameraMask lit(looks.size());
   for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = static_cast<double>(looks[i].share) >= leastShare;
+  return lit;
+}
+
+CameraMask renewedDirectlyLit(CameraMask lit, const transport::TransportMatrix& former,
+                              const transport::TransportMatrix& transport, const CameraMask& changed) {
+  Progress quiet;
+  // What counts as direct depends on the finest blocks of all.
+  if (transport::finestSide(former) != transport::finestSide(transport))
+    return directlyLit(directLooks(transport, {}, quiet));
+  require(lit.size() == changed.size(), "{} flags for {} camera pixels", lit.size(), changed.size());
+  const DirectLeaves rule(transport, {});
+  parallelFor(0, lit.size(), 64, [&](std::size_t row) {
+    if (changed[row]) lit[row] = directlyLit({rule.lookOf(transport.row(row))}).front();
+  });
   return lit;
 }
 

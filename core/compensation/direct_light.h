@@ -125,6 +125,11 @@ std::vector<DirectLook> directLooks(const transport::TransportMatrix& transport,
 /// Per look: enough of its light is direct.
 CameraMask directlyLit(const std::vector<DirectLook>& looks, double leastShare = leastDirectShare);
 
+/// directlyLit() of a T of which only the `changed` rows are others than in `former`, of which `lit` was
+/// known.
+CameraMask renewedDirectlyLit(CameraMask lit, const transport::TransportMatrix& former,
+                              const transport::TransportMatrix& transport, const CameraMask& changed);
+
 /// Transport of a model with defocus but without indirect light: the direct part, every row scaled to the
 /// whole flood image.
 /// Rows without direct light are empty.

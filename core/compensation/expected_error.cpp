@@ -7,6 +7,7 @@
 
 #include "relucent/base/parallel.h"
 #include "relucent/base/require.h"
+#include "relucent/transport/statistics.h"
 
 namespace relucent::compensation {
 namespace {
@@ -25,7 +26,7 @@ struct Looks {
 class Picture {
  public:
   Picture(const transport::TransportMatrix& transport, const ProjectorStack& picture)
-      : transport_(transport), mean_(transport.layout().means(picture)) {
+      : transport_(transport), nodes_(transport.layout()), mean_(transport.layout().means(picture)) {
     ProjectorStack squares(picture.size());
     parallelFor(0, picture.size(), 4096, [&](std::size_t j) { squares[j] = picture[j] * picture[j]; });
     square_ = transport.layout().means(squares);
@@ -33,36 +34,45 @@ class Picture {
 
   Looks lookedAtBy(std::size_t pixel) const {
     const transport::LeafRow row = transport_.row(pixel);
-    Looks looks;
-    Eigen::Array3f white = Eigen::Array3f::Zero(), seen = white;  // per projector channel
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const transport::ColourBlock block = row.block(k);
-      const Eigen::Array3f of = block.colwise().sum().transpose().array();
-      white += of;
-      seen += of * mean(row.column(k));
-      looks.light += (block * mean(row.column(k)).matrix()).array();
-      looks.brightest += block.rowwise().sum().array();
-    }
-    const Eigen::Array3f average = (white > 0.0f).select(seen / white, 0.0f);
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const std::uint32_t node = row.column(k);
-      const auto pixels =
-          static_cast<float>(transport_.layout().block(transport_.layout().node(node)).count());
-      const transport::ColourBlock squares = row.block(k).array().square().matrix();
+    std::vector<OfColours> sums(row.colourings());
+    row.eachFactor([&](std::size_t entry, std::size_t k, const Eigen::Array3f& factor) {
+      const std::uint32_t node = row.column(entry);
       const Eigen::Array3f within =
           (Eigen::Map<const Eigen::Array3f>(&square_[3 * std::size_t{node}]) - mean(node).square()).max(0.0f);
-      looks.spread += (mean(node) - average).square().sum();
-      looks.unresolved += (squares * (within / pixels).matrix()).array();
+      sums[k].light += factor * mean(node);
+      sums[k].brightest += factor;
+      sums[k].unresolved += factor.square() * within / nodes_.pixels[node];
+    });
+    Looks looks;
+    Eigen::Array3f white = Eigen::Array3f::Zero(), seen = white;  // per projector channel
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      const transport::ColourBlock colours = row.colours(k);
+      const Eigen::Array3f ofChannel = colours.colwise().sum().transpose().array();
+      white += ofChannel * sums[k].brightest;
+      seen += ofChannel * sums[k].light;
+      looks.light += (colours * sums[k].light.matrix()).array();
+      looks.brightest += (colours * sums[k].brightest.matrix()).array();
+      looks.unresolved += (colours.cwiseAbs2() * sums[k].unresolved.matrix()).array();
     }
+    const Eigen::Array3f average = (white > 0.0f).select(seen / white, 0.0f);
+    for (const std::uint32_t node : row.columns()) looks.spread += (mean(node) - average).square().sum();
     return looks;
   }
 
  private:
+  /// Of leaves that have their colours in common, per projector channel.
+  struct OfColours {
+    Eigen::Array3f light = Eigen::Array3f::Zero();
+    Eigen::Array3f brightest = Eigen::Array3f::Zero();
+    Eigen::Array3f unresolved = Eigen::Array3f::Zero();
+  };
+
   Eigen::Map<const Eigen::Array3f> mean(std::uint32_t node) const {
     return Eigen::Map<const Eigen::Array3f>(&mean_[3 * std::size_t{node}]);
   }
 
   const transport::TransportMatrix& transport_;
+  transport::NodeTable nodes_;
   transport::NodeStack mean_, square_;
 };
 

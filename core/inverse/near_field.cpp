@@ -17,16 +17,26 @@ namespace {
 /// such leaves contribute at most its square to G, the ridge is tenths of G's diagonal.
 constexpr float nearShare = 0.01f;
 
-float mean(const NearField::Value& value) {
-  return (value[0] + value[1] + value[2]) / 3.0f;
-}
+/// diag(U B) of each of a row's colours: times a leaf's factors it is diag(U T) of the leaf.
+class UnmixedRow {
+ public:
+  UnmixedRow(const transport::ColourBlock& unmix, const transport::LeafRow& leaves) : leaves_(leaves) {
+    for (std::size_t k = 0; k < leaves.colourings(); ++k)
+      ofColours_.push_back(unmix.cwiseProduct(leaves.colours(k).transpose()).rowwise().sum().array());
+  }
 
-/// diag(U T) of one leaf.
-NearField::Value unmixed(const transport::ColourBlock& unmix, const transport::ColourBlock& block) {
-  NearField::Value value{};
-  for (int c = 0; c < 3; ++c) value[static_cast<std::size_t>(c)] = unmix.row(c).dot(block.col(c));
-  return value;
-}
+  /// Calls visit(entry, value) for every leaf.
+  template <typename Visit>
+  void each(const Visit& visit) const {
+    leaves_.eachFactor([&](std::size_t entry, std::size_t k, const Eigen::Array3f& factor) {
+      visit(entry, Eigen::Array3f(ofColours_[k] * factor));
+    });
+  }
+
+ private:
+  const transport::LeafRow& leaves_;
+  std::vector<Eigen::Array3f> ofColours_;
+};
 
 }  // namespace
 
@@ -43,8 +53,8 @@ NearField nearFieldOf(const transport::TransportMatrix& transport, const CameraM
 
   // Twice over the same leaves, first to count: the near field is the largest array here and is made to
   // measure.
-  auto brightness = [&](std::size_t row, const transport::LeafRow& leaves, std::size_t entry) {
-    return std::abs(mean(unmixed(near.unmix[row], leaves.block(entry)))) / nodes.pixels[leaves.column(entry)];
+  const auto brightness = [&](const Eigen::Array3f& value, std::uint32_t column) {
+    return std::abs(value.mean()) / nodes.pixels[column];
   };
   near.start.assign(rows + 1, 0);
   near.step.assign(rows, 0.0f);
@@ -54,18 +64,19 @@ NearField nearFieldOf(const transport::TransportMatrix& transport, const CameraM
     Eigen::Vector3f flood = near.unmix[row] * (mixing[row] * Eigen::Vector3f::Ones());
     near.flood[row] = {flood[0], flood[1], flood[2], 0.0f};
     const transport::LeafRow leaves = transport.row(row);
+    const UnmixedRow unmixed(near.unmix[row], leaves);
     float brightest = 0.0f;
-    for (std::size_t entry = 0; entry < leaves.size(); ++entry)
-      brightest = std::max(brightest, brightness(row, leaves, entry));
+    unmixed.each([&](std::size_t entry, const Eigen::Array3f& value) {
+      brightest = std::max(brightest, brightness(value, leaves.column(entry)));
+    });
     threshold[row] = nearShare * brightest;
     if (!(brightest > 0.0f)) return;
     float largest = 0.0f;
-    for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
-      if (brightness(row, leaves, entry) < threshold[row]) continue;
+    unmixed.each([&](std::size_t entry, const Eigen::Array3f& value) {
+      if (brightness(value, leaves.column(entry)) < threshold[row]) return;
       ++near.start[row + 1];
-      for (float value : unmixed(near.unmix[row], leaves.block(entry)))
-        largest = std::max(largest, std::abs(value));
-    }
+      largest = std::max(largest, value.abs().maxCoeff());
+    });
     near.step[row] = largest / largestCode;
   });
   for (std::size_t row = 0; row < rows; ++row) near.start[row + 1] += near.start[row];
@@ -76,14 +87,14 @@ NearField nearFieldOf(const transport::TransportMatrix& transport, const CameraM
     std::size_t next = near.start[row];
     if (next == near.start[row + 1]) return;
     const transport::LeafRow leaves = transport.row(row);
-    for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
-      if (brightness(row, leaves, entry) < threshold[row]) continue;
-      const NearField::Value value = unmixed(near.unmix[row], leaves.block(entry));
+    UnmixedRow(near.unmix[row], leaves).each([&](std::size_t entry, const Eigen::Array3f& value) {
+      if (brightness(value, leaves.column(entry)) < threshold[row]) return;
       near.node[next] = leaves.column(entry);
       for (std::size_t c = 0; c < 3; ++c)
-        near.code[next][c] = static_cast<std::int16_t>(std::lround(value[c] / near.step[row]));
+        near.code[next][c] =
+            static_cast<std::int16_t>(std::lround(value[static_cast<Eigen::Index>(c)] / near.step[row]));
       ++next;
-    }
+    });
   });
   return near;
 }

@@ -204,19 +204,29 @@ BlockSparse BlockSparse::withRowsScaled(const Stack& factor) const {
   return result;
 }
 
-BlockSparse BlockSparse::withBlocksScaled(const ColumnKinds& kinds, const BlockFactor& factor) const {
+BlockSparse BlockSparse::withBlocksScaled(const ColumnKinds& kinds, const BlockFactor& factor) const& {
   BlockSparse result = *this;
+  result.scaleBlocks(kinds, factor);
+  return result;
+}
+
+BlockSparse BlockSparse::withBlocksScaled(const ColumnKinds& kinds, const BlockFactor& factor) && {
+  scaleBlocks(kinds, factor);
+  return std::move(*this);
+}
+
+void BlockSparse::scaleBlocks(const ColumnKinds& kinds, const BlockFactor& factor) {
   if (sharedColours()) {
     std::vector<std::uint32_t> kindOf(kinds_.count, 0);
     for (std::size_t i = 0; i < kinds_.ranges.size(); ++i)
       kindOf[kinds_.ranges[i].kind] = kinds.kindOf(i == 0 ? 0 : kinds_.ranges[i - 1].end);
     parallelFor(0, rows(), 256, [&](std::size_t row) {
-      const std::span<ColourBlock> mixing(&result.mixing_[row * kinds_.count], kinds_.count);
+      const std::span<ColourBlock> mixing(&mixing_[row * kinds_.count], kinds_.count);
       for (std::size_t kind = 0; kind < mixing.size(); ++kind)
         mixing[kind] = mixing[kind].cwiseProduct(factor(row, kindOf[kind]));
-      result.scale_[row] = stepOf(mixing);
+      scale_[row] = stepOf(mixing);
     });
-    return result;
+    return;
   }
   parallelFor(0, rows(), 256, [&](std::size_t row) {
     std::vector<ColourBlock> factors;
@@ -226,17 +236,16 @@ BlockSparse BlockSparse::withBlocksScaled(const ColumnKinds& kinds, const BlockF
       largest = std::max(largest, factors.back().cwiseAbs().maxCoeff());
     }
     // The largest factor goes into the row's scale, so codes only ever shrink.
-    result.scale_[row] = scale_[row] * largest;
+    scale_[row] *= largest;
     for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) {
       const ColourBlock& of = factors[kinds.kindOf(column_[entry])];
       for (std::size_t i = 0; i < 9; ++i)
-        result.code_[entry][i] = largest == 0.0f
-                                     ? std::int16_t{0}
-                                     : static_cast<std::int16_t>(std::lround(
-                                           static_cast<float>(code_[entry][i]) * (of.data()[i] / largest)));
+        code_[entry][i] = largest == 0.0f
+                              ? std::int16_t{0}
+                              : static_cast<std::int16_t>(std::lround(static_cast<float>(code_[entry][i]) *
+                                                                      (of.data()[i] / largest)));
     }
   });
-  return result;
 }
 
 BlockSparse BlockSparse::filtered(const std::function<bool(std::size_t row, std::size_t entry)>& keep) const {

@@ -95,7 +95,9 @@ class BlockSparse {
   /// several threads. Contract: of shared colours, all columns of one of their kinds are of one of `kinds`'s
   /// that have the same factor.
   using BlockFactor = std::function<ColourBlock(std::size_t row, std::size_t kind)>;
-  BlockSparse withBlocksScaled(const ColumnKinds& kinds, const BlockFactor& factor) const;
+  BlockSparse withBlocksScaled(const ColumnKinds& kinds, const BlockFactor& factor) const&;
+  /// The same in place.
+  BlockSparse withBlocksScaled(const ColumnKinds& kinds, const BlockFactor& factor) &&;
   /// Only the entries that are marked.  Shape: blocks().
   /// Throws: std::logic_error if the shape differs.
   BlockSparse filtered(const std::vector<std::uint8_t>& keep) const;
@@ -111,6 +113,7 @@ class BlockSparse {
   friend class TransportFile;
   /// scale() of a row with these colours: the sum of all magnitudes.
   static float stepOf(std::span<const ColourBlock> mixing);
+  void scaleBlocks(const ColumnKinds& kinds, const BlockFactor& factor);
   /// First row of a part, when the rows are divided into parts with equal numbers of blocks.
   std::size_t rowAtShare(std::size_t part) const;
 

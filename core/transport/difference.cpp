@@ -64,6 +64,37 @@ bool areSame(const LeafRow& a, const LeafRow& b) {
   return true;
 }
 
+/// Finds rows of two matrices that are held alike, in the same codes and groups: most of two of which one
+/// became from the other, without working out a value.
+class HeldAlike {
+ public:
+  HeldAlike(const TransportMatrix& a, const TransportMatrix& b)
+      : a_(a),
+        b_(b),
+        any_(a.ownLeaves().sharedColours() && b.ownLeaves().sharedColours() &&
+             *a.ownLeaves().sharedColours() == *b.ownLeaves().sharedColours() &&
+             a.groups().leaves() == b.groups().leaves() && a.groups().parents() == b.groups().parents()) {}
+
+  bool operator()(std::size_t row) const {
+    if (!any_) return false;
+    const BlockSparse &a = a_.ownLeaves(), &b = b_.ownLeaves();
+    if (!std::ranges::equal(a.columnsOf(row), b.columnsOf(row))) return false;
+    for (std::size_t kind = 0; kind < a.sharedColours()->count; ++kind)
+      if (a.mixing(row, kind) != b.mixing(row, kind)) return false;
+    for (std::size_t projector = 0; !a_.groups().empty() && projector < a_.projectors().devices();
+         ++projector)
+      if (a_.groups().groupOf(row, projector) != b_.groups().groupOf(row, projector)) return false;
+    const std::size_t beginA = a.rowBegin(row), beginB = b.rowBegin(row), count = a.columnsOf(row).size();
+    for (std::size_t i = 0; i < count; ++i)
+      if (a.factor(beginA + i) != b.factor(beginB + i)) return false;
+    return true;
+  }
+
+ private:
+  const TransportMatrix &a_, &b_;
+  bool any_;
+};
+
 void requireSameDevices(const TransportMatrix& transport, const TransportMatrix& reference) {
   require(transport.cameras() == reference.cameras() && transport.projectors() == reference.projectors(),
           "only transport between the same devices can be compared");
@@ -106,11 +137,14 @@ TransportDifference difference(const TransportMatrix& transport, const Transport
 CameraMask differingRows(const TransportMatrix& transport, const TransportMatrix& reference) {
   requireSameDevices(transport, reference);
   const std::size_t rows = transport.cameras().count();
+  const HeldAlike heldAlike(transport, reference);
+  CameraMask differ(rows, 0);
+  parallelFor(0, rows, 256, [&](std::size_t row) { differ[row] = heldAlike(row) ? 0 : 1; });
   // The same leaves may be held otherwise, some of them shared, and be summed in another order.
   const std::vector<ColourBlock> sums = transport.rowSums(), referenceSums = reference.rowSums();
-  CameraMask differ(rows, 0);
   parallelFor(0, rows, 256, [&](std::size_t row) {
-    differ[row] = sums[row] == referenceSums[row] && areSame(transport.row(row), reference.row(row)) ? 0 : 1;
+    if (differ[row] && sums[row] == referenceSums[row] && areSame(transport.row(row), reference.row(row)))
+      differ[row] = 0;
   });
   return differ;
 }

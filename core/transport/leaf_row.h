@@ -25,6 +25,31 @@ class LeafRow {
   std::span<const std::uint32_t> columns() && = delete;  // they go with the row
   std::uint32_t column(std::size_t entry) const { return columns_[entry]; }
   ColourBlock block(std::size_t entry) const;
+  /// A leaf is colours times a factor for each projector channel, block(entry) = colours(k) diag(factor):
+  /// where colours are shared, k is the leaf's kind, else the entry. Who asks for what is linear in blocks
+  /// works it out for the few colours of a row.
+  std::size_t colourings() const { return own_->sharedColours() ? own_->sharedColours()->count : size(); }
+  ColourBlock colours(std::size_t k) const {
+    return own_->sharedColours() ? own_->mixing(row_, k) : block(k);
+  }
+  /// Calls visit(entry, k, factor) for every entry.
+  template <typename Visit>
+  void eachFactor(const Visit& visit) const {
+    const ColumnKinds* kinds = own_->sharedColours();
+    if (!kinds) {
+      for (std::size_t entry = 0; entry < size(); ++entry)
+        visit(entry, entry, Eigen::Array3f(1.0f, 1.0f, 1.0f));
+      return;
+    }
+    // Ranges of kinds ascend as columns do.
+    auto range = kinds->ranges.begin();
+    for (std::size_t entry = 0; entry < size(); ++entry) {
+      while (range->end <= columns_[entry]) ++range;
+      const std::array<std::int16_t, 3>& code =
+          factor_.empty() ? own_->factor(begin_ + entry) : factor_[entry];
+      visit(entry, std::size_t{range->kind}, Eigen::Array3f(code[0], code[1], code[2]));
+    }
+  }
   BlockSize sizeOf(std::size_t entry) const;
   /// Contract: colours are shared. The row as it is, groups and all.
   SharedColourRow shared() const;

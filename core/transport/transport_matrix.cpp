@@ -53,13 +53,16 @@ CameraStack TransportMatrix::floodlight() const {
 std::vector<ColourBlock> TransportMatrix::rowSums() const {
   std::vector<ColourBlock> sums(own_.rows(), ColourBlock::Zero());
   const std::vector<std::array<float, 3>> ofGroups = groups_.sums();
+  const LeafGroups none;
   parallelFor(0, own_.rows(), 256, [&](std::size_t row) {
-    for (std::size_t entry = own_.rowBegin(row); entry < own_.rowBegin(row + 1); ++entry)
-      sums[row] += own_.block(row, entry);
+    const LeafRow own(own_, none, row, projectors().devices());
+    std::vector<Eigen::Array3f> factors(own.colourings(), Eigen::Array3f::Zero());
+    own.eachFactor([&](std::size_t, std::size_t k, const Eigen::Array3f& factor) { factors[k] += factor; });
     for (std::size_t projector = 0; !groups_.empty() && projector < projectors().devices(); ++projector)
       if (const std::uint32_t group = groups_.groupOf(row, projector); group != LeafGroups::none)
-        sums[row] += own_.mixing(row, farKind(projector)) *
-                     Eigen::Map<const Eigen::Vector3f>(ofGroups[group].data()).asDiagonal();
+        factors[farKind(projector)] += Eigen::Map<const Eigen::Array3f>(ofGroups[group].data());
+    for (std::size_t k = 0; k < factors.size(); ++k)
+      sums[row] += own.colours(k) * factors[k].matrix().asDiagonal();
   });
   return sums;
 }
@@ -128,9 +131,19 @@ TransportMatrix TransportMatrix::withRowsScaled(const Stack& factor) const {
 }
 
 TransportMatrix TransportMatrix::withLightScaled(const LightFactor& factor) const {
-  const ColumnKinds ofProjector = nearAndFar(layout_, 1);
-  const auto ofKind = [&](std::size_t pixel, std::size_t kind) { return factor(pixel, kind / 2); };
-  return {cameras_, projectors(), own_.withBlocksScaled(ofProjector, ofKind), groups_};
+  return withColoursScaled(nearAndFar(layout_, 1),
+                           [&](std::size_t pixel, std::size_t kind) { return factor(pixel, kind / 2); });
+}
+
+TransportMatrix TransportMatrix::withColoursScaled(const ColumnKinds& kinds,
+                                                   const BlockSparse::BlockFactor& factor) const& {
+  return {cameras_, projectors(), own_.withBlocksScaled(kinds, factor), groups_};
+}
+
+TransportMatrix TransportMatrix::withColoursScaled(const ColumnKinds& kinds,
+                                                   const BlockSparse::BlockFactor& factor) && {
+  own_ = std::move(own_).withBlocksScaled(kinds, factor);
+  return std::move(*this);
 }
 
 bool TransportMatrix::operator==(const TransportMatrix& other) const {

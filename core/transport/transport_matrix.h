@@ -56,6 +56,10 @@ class TransportMatrix {
   /// are how each of the projector's channels arrives in each of the camera's.
   using LightFactor = std::function<ColourBlock(std::size_t pixel, std::size_t projector)>;
   TransportMatrix withLightScaled(const LightFactor& factor) const;
+  /// The same of every block whose column is of a kind.  Contract: as of BlockSparse::withBlocksScaled().
+  TransportMatrix withColoursScaled(const ColumnKinds& kinds, const BlockSparse::BlockFactor& factor) const&;
+  /// The same in place.
+  TransportMatrix withColoursScaled(const ColumnKinds& kinds, const BlockSparse::BlockFactor& factor) &&;
 
   bool operator==(const TransportMatrix& other) const;
 

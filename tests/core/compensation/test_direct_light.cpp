@@ -7,6 +7,8 @@
 
 #include "core/inverse/synthetic_transport.h"
 #include "relucent/base/error.h"
+#include "relucent/transport/difference.h"
+#include "relucent/transport/statistics.h"
 #include "support/stopped.h"
 
 using namespace relucent;
@@ -173,6 +175,28 @@ class TestDirectLight : public QObject {
       QVERIFY2(std::abs(through[i] - flood[i]) <= 2e-3f * flood[i],
                qPrintable(QString("%1 %2").arg(through[i]).arg(flood[i])));
     }
+  }
+
+  /// Law: of rows that changed alone it is what it is of all of them, whatever the finest blocks are.
+  void isTheSameWhenOnlyChangedRowsAreLookedAt_data() {
+    QTest::addColumn<bool>("isFiner");
+    QTest::newRow("as fine") << false;
+    QTest::newRow("finer than before") << true;
+  }
+  void isTheSameWhenOnlyChangedRowsAreLookedAt() {
+    QFETCH(bool, isFiner);
+    const TransportMatrix after = makeScene({}).transport;
+    const NodeLayout& layout = after.layout();
+    const TransportMatrix before =
+        after.filtered([&](std::size_t row, const LeafRow& leaves, std::vector<std::uint8_t>& keep) {
+          for (std::size_t entry = 0; entry < leaves.size(); ++entry)
+            keep[entry] = layout.node(leaves.column(entry)).level > 0 || (!isFiner && row % 3 != 0);
+        });
+    QCOMPARE(finestSide(before) > finestSide(after), isFiner);
+    const CameraMask lit = directlyLit(directLooks(before, {}, quiet)),
+                     expected = directlyLit(directLooks(after, {}, quiet));
+    QVERIFY(lit != expected);
+    QVERIFY(renewedDirectlyLit(lit, before, after, differingRows(after, before)) == expected);
   }
 
   void emptyTransportHasNoDirectLight() {

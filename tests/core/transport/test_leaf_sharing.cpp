@@ -313,6 +313,51 @@ class TestLeafSharing : public QObject {
     QVERIFY(t.row(3).size() > without.row(3).size());
   }
 
+  /// Law: a row's leaves are its few colours times their factors; its sum is that of its leaves.
+  void blocksAreColoursTimesFactors_data() { addScenes(); }
+  void blocksAreColoursTimesFactors() {
+    QFETCH(int, scene);
+    const TransportMatrix t = shared(made(scenes()[static_cast<std::size_t>(scene)]));
+    for (const TransportMatrix& matrix : {t, t.flattened()}) {
+      const std::vector<ColourBlock> sums = matrix.rowSums();
+      for (std::size_t row = 0; row < sums.size(); ++row) {
+        const LeafRow leaves = matrix.row(row);
+        std::size_t visited = 0;
+        ColourBlock sum = ColourBlock::Zero();
+        float magnitudes = 0.0f;
+        leaves.eachFactor([&](std::size_t entry, std::size_t k, const Eigen::Array3f& factor) {
+          QCOMPARE(entry, visited++);
+          QVERIFY(leaves.colours(k) * factor.matrix().asDiagonal() == leaves.block(entry));
+          sum += leaves.block(entry);
+          magnitudes += leaves.block(entry).cwiseAbs().maxCoeff();
+        });
+        QCOMPARE(visited, leaves.size());
+        QVERIFY((sums[row] - sum).cwiseAbs().maxCoeff() <= 1e-5f * magnitudes);  // single precision
+      }
+    }
+  }
+
+  /// Law: rows differ by what they are, however they are held.
+  void rowsDifferHoweverTheyAreHeld_data() { addScenes(); }
+  void rowsDifferHoweverTheyAreHeld() {
+    QFETCH(int, scene);
+    const TransportMatrix t = shared(made(scenes()[static_cast<std::size_t>(scene)]));
+    const CameraMask none(t.cameras().count(), 0);
+    QVERIFY(differingRows(t, t) == none);
+    CameraMask one = none, expected = none;
+    one[2] = 1;
+    const TransportMatrix without(t.cameras(), t.projectors(), t.ownLeaves(), t.groups().without(one));
+    expected[2] = without.row(2).size() == t.row(2).size() ? 0 : 1;
+    QVERIFY(differingRows(without, t) == expected);
+    Stack factor(3 * none.size(), 1.0f);
+    factor[3 * 5 + 1] = 0.99f;
+    expected = none;
+    expected[5] = t.rowSums()[5].isZero(0.0f) ? 0 : 1;
+    const TransportMatrix scaled(t.cameras(), t.projectors(), t.ownLeaves().withRowsScaled(factor),
+                                 t.groups());
+    QVERIFY(differingRows(scaled, t) == expected);
+  }
+
   void files_data() { addScenes(); }
   /// To the same bits as codes; as numbers every row is whole, for programs that know no groups.
   void files() {

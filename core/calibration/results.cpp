@@ -257,14 +257,16 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
   const std::optional<Json> settings = repair ? settingsWith(folder, repair->contentAfter) : std::nullopt;
   const auto writeFiles = [&](const fs::path& path) {
     transport::saveTransport(path / "transport.npz", acquisition.transport, transport::StoredValues::codes);
-    image::writeStack(path, "black", acquisition.black, cameras, radianceUnits);
-    image::writeStack(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);
-    image::writeStack(path, "flood", acquisition.flood, cameras, radianceUnits);
-    image::writeStack(path, "flood-variance", acquisition.floodVariance, cameras, varianceUnits);
-    if (!acquisition.leafVariance.empty())
-      image::writeStack(path, "leaf-variance", acquisition.leafVariance, cameras, varianceUnits);
+    const auto measured = [&](const std::string& name, const CameraStack& stack, const char* units) {
+      image::writeStack(path, name, stack, cameras, units, image::ExrPacking::none);
+    };
+    measured("black", acquisition.black, radianceUnits);
+    measured("black-variance", acquisition.blackVariance, varianceUnits);
+    measured("flood", acquisition.flood, radianceUnits);
+    measured("flood-variance", acquisition.floodVariance, varianceUnits);
+    if (!acquisition.leafVariance.empty()) measured("leaf-variance", acquisition.leafVariance, varianceUnits);
     for (std::size_t size = 0; size < acquisition.residual.size(); ++size)
-      image::writeStack(path, residualName(size), acquisition.residual[size], cameras, radianceUnits);
+      measured(residualName(size), acquisition.residual[size], radianceUnits);
     image::writeStack(path, "flagged", image::stackFromFlags(acquisition.flagged), cameras,
                       "1 where verification failed");
   };

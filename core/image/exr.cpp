@@ -24,6 +24,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/fingerprint.h"
 #include "relucent/image/exr_stream.h"
 #include "relucent/image/too_little_memory.h"
 
@@ -318,13 +319,34 @@ std::vector<half> toHalf(const Image& image, const fs::path& path) {
   return samples;
 }
 
-Imf::Header headerFor(const ExrImage& image, ExrType type) {
+/// Of the pixels in any order of their channels.
+std::string checksumOf(const ExrImage& image) {
+  std::map<std::string_view, std::size_t> places;
+  for (std::size_t c = 0; c < image.channelNames.size(); ++c) places.emplace(image.channelNames[c], c);
+  Fingerprint fingerprint;
+  std::vector<float> channel(image.pixels.pixels());
+  for (const auto& [name, place] : places) {
+    for (std::size_t i = 0; i < channel.size(); ++i)
+      channel[i] = image.pixels.data()[i * places.size() + place];
+    fingerprint.add(name).add(channel);
+  }
+  return fingerprint.hex();
+}
+
+/// How a file's pixels are stored.
+struct Storage {
+  ExrType type;
+  ExrPacking packing;
+};
+
+Imf::Header headerFor(const ExrImage& image, const Storage& storage) {
   const Size display = image.displaySize.value_or(image.pixels.size());
   const Pixel displayOrigin = image.displaySize ? image.displayOrigin : image.dataOrigin;
   Imf::Header header(boxOf(displayOrigin, display), boxOf(image.dataOrigin, image.pixels.size()), 1.0f,
-                     Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+                     Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y,
+                     storage.packing == ExrPacking::zip ? Imf::ZIP_COMPRESSION : Imf::NO_COMPRESSION);
   for (const std::string& name : image.channelNames)
-    header.channels().insert(name, Imf::Channel(type == ExrType::half ? Imf::HALF : Imf::FLOAT));
+    header.channels().insert(name, Imf::Channel(storage.type == ExrType::half ? Imf::HALF : Imf::FLOAT));
   for (const auto& [name, attribute] : image.attributes) {
     require(!reservedName(name), "OpenEXR reserves the attribute name {}", name);
     if (auto text = std::get_if<std::string>(&attribute))
@@ -338,17 +360,17 @@ Imf::Header headerFor(const ExrImage& image, ExrType type) {
 }
 
 template <typename Sample>
-std::string encoded(const ExrImage& image, ExrType type, const std::vector<Sample>& samples,
+std::string encoded(const ExrImage& image, const Storage& storage, const std::vector<Sample>& samples,
                     const fs::path& path) {
   detail::MemoryOutput stream(path.filename().string());
   {
-    Imf::Header header = headerFor(image, type);
+    Imf::Header header = headerFor(image, storage);
     Imf::FrameBuffer frame;
     const std::size_t pixelBytes = image.channelNames.size() * sizeof(Sample);
     for (std::size_t c = 0; c < image.channelNames.size(); ++c)
       frame.insert(image.channelNames[c],
-                   Imf::Slice::Make(type == ExrType::half ? Imf::HALF : Imf::FLOAT, samples.data() + c,
-                                    header.dataWindow(), pixelBytes,
+                   Imf::Slice::Make(storage.type == ExrType::half ? Imf::HALF : Imf::FLOAT,
+                                    samples.data() + c, header.dataWindow(), pixelBytes,
                                     pixelBytes * static_cast<std::size_t>(image.pixels.width())));
     Imf::OutputFile file(stream, header);
     file.setFrameBuffer(frame);
@@ -376,7 +398,10 @@ ExrImage readExr(const fs::path& path) {
     detail::MemoryInput stream(content, path.filename().string());
     Imf::InputFile file(stream);
     checkKind(file, path);
-    return readPixels(file, path);
+    ExrImage image = readPixels(file, path);
+    const auto checksum = image.attributes.extract(exr_attribute::checksum);
+    if (checksum && checksum.mapped() != ExrAttribute(checksumOf(image))) failDamaged(path);
+    return image;
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -386,25 +411,33 @@ ExrImage readExr(const fs::path& path) {
   }
 }
 
-void writeExr(const fs::path& path, const ExrImage& image, ExrType type) {
+void writeExr(const fs::path& path, const ExrImage& image, ExrType type, ExrPacking packing) {
   require(!image.pixels.empty(), "an OpenEXR file needs pixels");
   require(image.channelNames.size() == static_cast<std::size_t>(image.pixels.channels()),
           "{} names for {} channels", image.channelNames.size(), image.pixels.channels());
   require(std::set(image.channelNames.begin(), image.channelNames.end()).size() == image.channelNames.size(),
           "channel names are not unique: {}", joined(image.channelNames));
-  writeFileAtomically(path, type == ExrType::half ? encoded(image, type, toHalf(image.pixels, path), path)
-                                                  : encoded(image, type, image.pixels.data(), path));
+  const Storage storage{type, packing};
+  if (packing == ExrPacking::none) {
+    require(type == ExrType::floatType, "half samples are packed");
+    ExrImage checked = image;
+    checked.attributes[exr_attribute::checksum] = checksumOf(image);
+    writeFileAtomically(path, encoded(checked, storage, checked.pixels.data(), path));
+    return;
+  }
+  writeFileAtomically(path, type == ExrType::half ? encoded(image, storage, toHalf(image.pixels, path), path)
+                                                  : encoded(image, storage, image.pixels.data(), path));
 }
 
 void writeExr(const fs::path& path, const Image& image, ExrType type,
-              std::map<std::string, ExrAttribute> attributes) {
+              std::map<std::string, ExrAttribute> attributes, ExrPacking packing) {
   require(image.channels() == 3 || image.channels() == 1, "no names for {} channels", image.channels());
   ExrImage exr;
   exr.pixels = image;
   exr.channelNames =
       image.channels() == 3 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
   exr.attributes = std::move(attributes);
-  writeExr(path, exr, type);
+  writeExr(path, exr, type, packing);
 }
 
 Image readRgbExr(const fs::path& path, std::optional<Size> expected) {

@@ -18,6 +18,7 @@ namespace exr_attribute {
 inline constexpr const char* units = "relucent:units";              // "camera signal per second"
 inline constexpr const char* software = "relucent:software";        // "Relucent 0.1.0"
 inline constexpr const char* fingerprint = "relucent:fingerprint";  // of the inputs
+inline constexpr const char* checksum = "relucent:checksum";        // of the pixels, where nothing is packed
 }  // namespace exr_attribute
 
 using ExrAttribute = std::variant<std::string, double, int>;
@@ -35,20 +36,26 @@ struct ExrImage {
 
 enum class ExrType { half, floatType };
 
+/// How the lines of a file are packed, losslessly both: by ZIP, or as they are with a checksum of the pixels,
+/// float only. Of what a camera measured ZIP saves a twentieth, and takes ten times as long as writing it.
+enum class ExrPacking { zip, none };
+
 /// Reads scan-line or tiled files of one part, every channel converted to float. Values are returned
 /// unchanged, NaN and infinities included: see checkFinite(). Channels come in the file's alphabetical order,
 /// except that R, G, B, A of a layer are in that order. Throws: Error{disk} if unreadable; Error{format} if
-/// foreign, damaged, truncated, deep, of several parts or with subsampled channels.
+/// foreign, damaged (with another checksum than its pixels, too), truncated, deep, of several parts or with
+/// subsampled channels.
 ExrImage readExr(const std::filesystem::path& path);
 
-/// Writes atomically, scan lines with lossless compression. Float is exact; half rounds to nearest.
+/// Writes atomically, in scan lines. Float is exact; half rounds to nearest.
 /// Throws: Error{input} if a finite value is too large for half; Error{disk}. std::logic_error if names and
 /// channels do not match or an attribute has a name that OpenEXR reserves.
-void writeExr(const std::filesystem::path& path, const ExrImage& image, ExrType type);
+void writeExr(const std::filesystem::path& path, const ExrImage& image, ExrType type,
+              ExrPacking packing = ExrPacking::zip);
 
 /// An image of three channels as R, G, B (or of one as Y), display window = data window.
 void writeExr(const std::filesystem::path& path, const Image& image, ExrType type,
-              std::map<std::string, ExrAttribute> attributes = {});
+              std::map<std::string, ExrAttribute> attributes = {}, ExrPacking packing = ExrPacking::zip);
 
 /// R, G, B on the raster of the display window; 0 outside the data window. A file with Y alone is grey.
 /// Throws: as readExr(); Error{format} naming the existing channels if R, G, B are missing;

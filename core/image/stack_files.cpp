@@ -13,12 +13,12 @@ std::string stackFileName(const std::string& name, std::size_t device) {
 }
 
 std::vector<fs::path> writeStack(const fs::path& folder, const std::string& name, const Stack& stack,
-                                 const Rasters& rasters, const std::string& units) {
+                                 const Rasters& rasters, const std::string& units, ExrPacking packing) {
   std::vector<fs::path> files;
   for (std::size_t device = 0; device < rasters.devices(); ++device) {
     files.push_back(folder / stackFileName(name, device));
     writeExr(files.back(), imageFromStack(stack, rasters, device), ExrType::floatType,
-             {{exr_attribute::units, units}});
+             {{exr_attribute::units, units}}, packing);
   }
   return files;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "relucent/image/exr.h"
 #include "relucent/image/image.h"
 
 namespace relucent::image {
@@ -17,7 +18,7 @@ std::string stackFileName(const std::string& name, std::size_t device);
 /// Throws: as writeExr().
 std::vector<std::filesystem::path> writeStack(const std::filesystem::path& folder, const std::string& name,
                                               const Stack& stack, const Rasters& rasters,
-                                              const std::string& units);
+                                              const std::string& units, ExrPacking packing = ExrPacking::zip);
 
 /// Flags as a stack: 0, or 1 in all three channels.
 Stack stackFromFlags(const std::vector<std::uint8_t>& flags);

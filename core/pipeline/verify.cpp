@@ -19,14 +19,16 @@ std::vector<fs::path> writeMaps(const fs::path& folder, const acquisition::Rever
                                 const Rasters& cameras) {
   createFolder(folder);
   std::vector<fs::path> files;
-  auto write = [&](const std::string& name, const Stack& stack, const std::string& units) {
-    for (fs::path& file : image::writeStack(folder, name, stack, cameras, units))
+  auto write = [&](const std::string& name, const Stack& stack, const std::string& units,
+                   image::ExrPacking packing) {
+    for (fs::path& file : image::writeStack(folder, name, stack, cameras, units, packing))
       files.push_back(std::move(file));
   };
   for (std::size_t size = 0; size < found.residual.size(); ++size)
-    write(fmt::format("residual-{}", 1 << size), found.residual[size], "camera signal per second");
-  write("changed", image::stackFromFlags(found.changed),
-        "1 where a pixel sees something else than predicted");
+    write(fmt::format("residual-{}", 1 << size), found.residual[size], "camera signal per second",
+          image::ExrPacking::none);
+  write("changed", image::stackFromFlags(found.changed), "1 where a pixel sees something else than predicted",
+        image::ExrPacking::zip);
   return files;
 }
 

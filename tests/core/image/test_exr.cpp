@@ -88,6 +88,33 @@ class TestExr : public QObject {
     QVERIFY(sameBits(readRgbExr(file("float.exr")), image));
   }
 
+  /// Law: what is not packed is the same picture, and one bit that changed on the disk is noticed, as in ZIP.
+  void whatIsNotPackedHasAChecksum() {
+    ExrImage image;
+    image.pixels = noise({17, 11}, 3, 1);
+    image.channelNames = {"Y", "R", "A"};  // not as files have them
+    image.attributes = {{exr_attribute::units, "lamps"}};
+    writeExr(file("plain.exr"), image, ExrType::floatType, ExrPacking::none);
+    const ExrImage back = readExr(file("plain.exr"));
+    QVERIFY(back.attributes == image.attributes);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto place =
+          std::ranges::find(back.channelNames, image.channelNames[c]) - back.channelNames.begin();
+      for (int x = 0; x < 17; ++x)
+        QCOMPARE(back.pixels.at(x, 5, static_cast<int>(place)), image.pixels.at(x, 5, static_cast<int>(c)));
+    }
+    const std::string whole = readFile(file("plain.exr"));
+    QVERIFY(whole.size() > image.pixels.data().size() * sizeof(float));
+    for (std::size_t at = whole.size() - 1000; at < whole.size(); at += 37) {
+      std::string damaged = whole;
+      damaged[at] = static_cast<char>(damaged[at] ^ 1);
+      writePlainly(file("damaged.exr"), damaged);
+      QVERIFY(!sentenceOf([&] { readExr(file("damaged.exr")); }, ErrorKind::format).empty());
+    }
+    QVERIFY_THROWS_EXCEPTION(std::logic_error,
+                             writeExr(file("x.exr"), image, ExrType::half, ExrPacking::none));
+  }
+
   void halfRoundsToNearest() {
     const Image image = noise({17, 11}, 3, 2);
     writeExr(file("half.exr"), image, ExrType::half);

@@ -81,10 +81,10 @@ Reverification verifyAgain(const AcquisitionRun& run, const transport::Acquisiti
   for (std::size_t row = 0; row < counted.size(); ++row) counted[row] = acquisition.flagged[row] == 0 ? 1 : 0;
   std::vector<float> tolerable = tolerableNoise(acquisition.flood, run.settings);
   // As if the lamp were as strong as then: how strong it is follows from these very photographs.
-  auto light =
-      [&](const ProjectorStack& pattern,
-          const std::vector<photography::Demand>& demands) -> sentinels::Interruptible<hdr::LampLight> {
-    return hdr::LampLight(hdr::ProjectedLight(photographer.take(pattern, demands, progress), black), 1.0);
+  auto light = [&](const ProjectorStack& pattern,
+                   const std::vector<photography::Demand>& demands) -> sentinels::Interruptible<SeenLight> {
+    return std::make_shared<const hdr::LampLight>(
+        hdr::ProjectedLight(photographer.take(pattern, demands, progress), black), 1.0);
   };
   AcquisitionSettings patterns = run.settings;
   patterns.verificationPatterns = std::max(verificationSizes, run.settings.verificationPatterns);

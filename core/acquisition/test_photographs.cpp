@@ -10,13 +10,13 @@ sentinels::Interruptible<Verification> TestPhotographs::compared(const transport
   std::size_t next = 0;
   const LightSource light =
       [&](const ProjectorStack& pattern,
-          const std::vector<photography::Demand>& demands) -> sentinels::Interruptible<hdr::LampLight> {
+          const std::vector<photography::Demand>& demands) -> sentinels::Interruptible<SeenLight> {
     const std::size_t number = next++;
     if (number == light_.size()) {
       auto seen = context_.watch.lightOfRandom(pattern, demands, progress);
       if (!seen) return seen.interruption();
       patterns_.push_back(pattern);
-      light_.push_back(*std::move(seen));
+      light_.push_back(std::make_shared<const hdr::LampLight>(*std::move(seen)));
     }
     return light_[number];
   };

@@ -21,14 +21,14 @@ class TestPhotographs {
 
   /// What was photographed so far, in the patterns' order.
   const std::vector<ProjectorStack>& patterns() const { return patterns_; }
-  const std::vector<hdr::LampLight>& light() const { return light_; }
+  const std::vector<SeenLight>& light() const { return light_; }
 
  private:
   const TreeContext& context_;
   const AcquisitionSettings& settings_;
   int first_;
   std::vector<ProjectorStack> patterns_;
-  std::vector<hdr::LampLight> light_;
+  std::vector<SeenLight> light_;
 };
 
 }  // namespace relucent::acquisition

@@ -88,35 +88,43 @@ std::vector<photography::Demand> demandsOf(const Expectation& expected,
                                            const std::vector<Prediction>& predicted,
                                            const std::vector<std::uint8_t>& rows) {
   std::vector<photography::Demand> demands(rows.size());
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    if (!rows[row]) continue;
+  parallelFor(0, rows.size(), 4096, [&](std::size_t row) {
+    if (!rows[row]) return;
     float brightest = 0.0f;
     for (std::size_t c = 0; c < 3; ++c)
       brightest = std::max(brightest, expected.black[3 * row + c] + predicted[row].light[c]);
     demands[row] = {brightest, brightest, expected.tolerable[row]};
-  }
+  });
   return demands;
 }
 
-/// One pattern's share of the sums; the squares of the differences are added to `map`.
-std::vector<Residual> compared(const hdr::LampLight& seen, const std::vector<Prediction>& predicted,
-                               const std::vector<std::uint8_t>& rows, Stack& map) {
-  std::vector<Residual> residual(rows.size());
-  parallelFor(0, rows.size(), 1024, [&](std::size_t row) {
-    if (!rows[row]) return;
-    for (std::size_t c = 0; c < 3; ++c) {
-      std::size_t at = 3 * row + c;
-      if (!seen.valid[at]) continue;
-      double light = static_cast<double>(seen.radiance[at]);
-      double expected = static_cast<double>(predicted[row].light[c]), difference = light - expected;
-      residual[row].add(
-          {difference * difference,
-           static_cast<double>(seen.variance[at]) * (1.0 + static_cast<double>(predicted[row].leafNoise)),
-           light * light, expected * expected, static_cast<double>(seen.variance[at])});
-      map[at] += static_cast<float>(difference * difference);
+/// Adds one pattern's share to the rows' sums, and the squares of the differences to `map`. Returns: the
+/// share of all.
+Residual compare(const hdr::LampLight& seen, const std::vector<Prediction>& predicted,
+                 const std::vector<std::uint8_t>& rows, std::vector<Residual>& sums, Stack& map) {
+  std::array<Residual, fixedParts> parts{};
+  parallelChunks(0, rows.size(), fixedParts, [&](std::size_t part, std::size_t first, std::size_t last) {
+    for (std::size_t row = first; row < last; ++row) {
+      if (!rows[row]) continue;
+      Residual residual;
+      for (std::size_t c = 0; c < 3; ++c) {
+        std::size_t at = 3 * row + c;
+        if (!seen.valid[at]) continue;
+        double light = static_cast<double>(seen.radiance[at]);
+        double expected = static_cast<double>(predicted[row].light[c]), difference = light - expected;
+        residual.add(
+            {difference * difference,
+             static_cast<double>(seen.variance[at]) * (1.0 + static_cast<double>(predicted[row].leafNoise)),
+             light * light, expected * expected, static_cast<double>(seen.variance[at])});
+        map[at] += static_cast<float>(difference * difference);
+      }
+      sums[row].add(residual);
+      parts[part].add(residual);
     }
   });
-  return residual;
+  Residual all;
+  for (const Residual& part : parts) all.add(part);
+  return all;
 }
 
 }  // namespace
@@ -166,33 +174,36 @@ sentinels::Interruptible<Verification> verify(const Expectation& expected, const
     ProjectorStack pattern =
         verificationPattern(expected.transport.projectors(), number, task.settings.seed, finest);
     std::vector<Prediction> predicted = predictions(expected.transport, pattern, rows);
-    sentinels::Interruptible<hdr::LampLight> seen = light(pattern, demandsOf(expected, predicted, rows));
+    sentinels::Interruptible<SeenLight> seen = light(pattern, demandsOf(expected, predicted, rows));
     if (!seen) return seen.interruption();
 
     auto size = static_cast<std::size_t>(number % verificationSizes);
     ++patterns[size];
-    std::vector<Residual> residual = compared(*seen, predicted, rows, verification.residual[size]);
-    for (std::size_t row = 0; row < count; ++row) {
-      verification.rows[row].add(residual[row]);
-      verification.bySize[size].add(residual[row]);
-    }
+    verification.bySize[size].add(
+        compare(**seen, predicted, rows, verification.rows, verification.residual[size]));
     progress.report(static_cast<double>(number - task.first + 1) / wanted);
   }
   for (std::size_t size = 0; size < verificationSizes; ++size)
-    for (float& value : verification.residual[size])
+    parallelFor(0, 3 * count, 16384, [&](std::size_t at) {
+      float& value = verification.residual[size][at];
       value = std::sqrt(value / static_cast<float>(std::max(1, patterns[size])));
+    });
 
   verification.flagged.assign(count, 0);
-  for (std::size_t row = 0; row < count; ++row)
+  parallelFor(0, count, 4096, [&](std::size_t row) {
     verification.flagged[row] = isWrong(verification.rows[row], task.settings) ? 1 : 0;
+  });
   return verification;
 }
 
 sentinels::Interruptible<Verification> verify(const transport::TransportMatrix& transport,
                                               const TreeContext& context, const VerificationTask& task,
                                               Progress& progress) {
-  auto light = [&](const ProjectorStack& pattern, const std::vector<photography::Demand>& demands) {
-    return context.watch.lightOfRandom(pattern, demands, progress);
+  auto light = [&](const ProjectorStack& pattern,
+                   const std::vector<photography::Demand>& demands) -> sentinels::Interruptible<SeenLight> {
+    auto seen = context.watch.lightOfRandom(pattern, demands, progress);
+    if (!seen) return seen.interruption();
+    return std::make_shared<const hdr::LampLight>(*std::move(seen));
   };
   return verify({transport, context.watch.black().radiance, context.scheme.tolerable}, light, task, progress);
 }

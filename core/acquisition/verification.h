@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 
 #include "relucent/acquisition/settings.h"
 #include "relucent/acquisition/tree_context.h"
@@ -45,8 +46,9 @@ struct Verification {
       residual;  // per block size: root of the mean square of measured - predicted, radiance
 };
 
-/// The light of a pattern, radiance less e.
-using LightSource = std::function<sentinels::Interruptible<hdr::LampLight>(
+/// The light of a pattern, radiance less e. Whoever has photographed it keeps it, or not.
+using SeenLight = std::shared_ptr<const hdr::LampLight>;
+using LightSource = std::function<sentinels::Interruptible<SeenLight>(
     const ProjectorStack& pattern, const std::vector<photography::Demand>& demands)>;
 
 /// What a held-out photograph is compared with, and how good it has to be.

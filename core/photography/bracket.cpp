@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "relucent/base/parallel.h"
+
 namespace relucent::photography {
 namespace {
 
@@ -18,28 +20,42 @@ constexpr double sigmas = 6.0;
 /// near the limit would seem to change.
 double contradiction(const rig::RawFrame& longer, const rig::RawFrame& shorter,
                      const hdr::CameraModel& model) {
-  double longTime = hdr::trueSeconds(model, longer.seconds),
-         shortTime = hdr::trueSeconds(model, shorter.seconds);
-  double expected = 0.0, found = 0.0, variance = 0.0;
-  for (std::size_t at = 0; at < longer.signal.data().size(); ++at) {
-    auto signal = static_cast<double>(longer.signal.data()[at]);
-    if (signal >= nearSaturation * model.saturation) continue;
-    const hdr::ResponseCurve& response = model.response[at % 3];
-    const double linear = response(signal);
-    const double first = linear / longTime;
-    const double second = response(static_cast<double>(shorter.signal.data()[at])) / shortTime;
-    const double firstVariance = hdr::linearVariance(model, linear) / (longTime * longTime);
-    const double secondVariance =
-        hdr::linearVariance(model, linear * shortTime / longTime) / (shortTime * shortTime);
-    const double both = firstVariance + secondVariance;
-    const double mean = both > 0.0 ? (first * secondVariance + second * firstVariance) / both : first;
-    if (mean * longTime < wellExposed) continue;
-    expected += first;
-    found += second;
-    variance += both;
+  const double longTime = hdr::trueSeconds(model, longer.seconds),
+               shortTime = hdr::trueSeconds(model, shorter.seconds);
+  struct Sums {
+    double expected = 0.0, found = 0.0, variance = 0.0;
+  };
+  std::array<Sums, fixedParts> parts{};
+  const std::size_t values = longer.signal.data().size();
+  parallelChunks(0, values, fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Sums sums;
+    for (std::size_t at = begin; at < end; ++at) {
+      auto signal = static_cast<double>(longer.signal.data()[at]);
+      if (signal >= nearSaturation * model.saturation) continue;
+      const hdr::ResponseCurve& response = model.response[at % 3];
+      const double linear = response(signal);
+      const double first = linear / longTime;
+      const double second = response(static_cast<double>(shorter.signal.data()[at])) / shortTime;
+      const double firstVariance = hdr::linearVariance(model, linear) / (longTime * longTime);
+      const double secondVariance =
+          hdr::linearVariance(model, linear * shortTime / longTime) / (shortTime * shortTime);
+      const double both = firstVariance + secondVariance;
+      const double mean = both > 0.0 ? (first * secondVariance + second * firstVariance) / both : first;
+      if (mean * longTime < wellExposed) continue;
+      sums.expected += first;
+      sums.found += second;
+      sums.variance += both;
+    }
+    parts[part] = sums;
+  });
+  Sums all;
+  for (const Sums& sums : parts) {
+    all.expected += sums.expected;
+    all.found += sums.found;
+    all.variance += sums.variance;
   }
-  double apart = std::abs(found - expected);
-  return apart > sigmas * std::sqrt(variance) ? apart / expected : 0.0;
+  const double apart = std::abs(all.found - all.expected);
+  return apart > sigmas * std::sqrt(all.variance) ? apart / all.expected : 0.0;
 }
 
 /// Two exposures, one after the other, and how much they contradict each other.

@@ -71,21 +71,28 @@ std::vector<std::size_t> Photographer::exposuresFor(const std::vector<Demand>& d
   // How many pixels can live with the exposures from the longest that does not saturate them to the
   // shortest that is not too noisy for them.
   std::size_t count = linearization_.exposures.size();
+  std::vector<std::vector<std::size_t>> parts(fixedParts, std::vector<std::size_t>(count * count, 0));
+  parallelChunks(0, demands.size(), fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      const Demand& demand = demands[row];
+      if (demand.brightest < 0.0f) continue;
+      std::size_t longest = longestUnsaturated(row, static_cast<double>(demand.brightest));
+      auto expected = static_cast<double>(demand.expected);
+      double enough =
+          std::max(static_cast<double>(demand.deviation), tolerableLoss * deviation(row, expected, longest));
+      std::size_t shortest = longest;
+      while (shortest + 1 < count && deviation(row, expected, shortest + 1) <= enough) ++shortest;
+      ++parts[part][longest * count + shortest];
+    }
+  });
   std::vector<std::size_t> pixels(count * count, 0);
   std::size_t all = 0, shortestNeeded = 0;
-  for (std::size_t row = 0; row < demands.size(); ++row) {
-    const Demand& demand = demands[row];
-    if (demand.brightest < 0.0f) continue;
-    std::size_t longest = longestUnsaturated(row, static_cast<double>(demand.brightest));
-    auto expected = static_cast<double>(demand.expected);
-    double enough =
-        std::max(static_cast<double>(demand.deviation), tolerableLoss * deviation(row, expected, longest));
-    std::size_t shortest = longest;
-    while (shortest + 1 < count && deviation(row, expected, shortest + 1) <= enough) ++shortest;
-    ++pixels[longest * count + shortest];
-    ++all;
-    shortestNeeded = std::max(shortestNeeded, longest);
-  }
+  for (const std::vector<std::size_t>& part : parts)
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      pixels[i] += part[i];
+      all += part[i];
+      if (part[i] > 0) shortestNeeded = std::max(shortestNeeded, i / count);
+    }
   if (all == 0) return {};
 
   // Saturation is no choice: the brightest pixel decides the shortest exposure. Longer ones follow while

@@ -2,9 +2,12 @@
 #include "relucent/rig/rig.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 #include "relucent/rig/distinct_cameras.h"
 
 namespace relucent::rig {
@@ -15,6 +18,18 @@ Rasters rastersOf(const std::vector<std::unique_ptr<Device>>& devices) {
   std::vector<Size> sizes;
   for (const auto& device : devices) sizes.push_back(device->size());
   return Rasters(std::move(sizes));
+}
+
+/// Every value is looked at, whatever the others are: most photographs are in order, and so it takes least.
+bool isFinite(const image::Image& image) {
+  std::array<bool, fixedParts> parts{};
+  parallelChunks(0, image.data().size(), fixedParts,
+                 [&](std::size_t part, std::size_t begin, std::size_t end) {
+                   bool all = true;
+                   for (std::size_t i = begin; i < end; ++i) all &= std::isfinite(image.data()[i]);
+                   parts[part] = all;
+                 });
+  return std::ranges::all_of(parts, std::identity());
 }
 
 }  // namespace
@@ -63,9 +78,9 @@ void checkFrame(const RawFrame& frame, Size size, const std::string& camera) {
                 RELUCENT_ENGLISH_MESSAGE("device.set-camera-to-colour",
                                          "set the camera to colour pictures (red, green, blue)"),
                 camera);
-  auto notFinite = std::find_if(image.data().begin(), image.data().end(),
-                                [](float value) { return !std::isfinite(value); });
-  if (notFinite != image.data().end()) {
+  if (!isFinite(image)) {
+    const auto notFinite = std::find_if(image.data().begin(), image.data().end(),
+                                        [](float value) { return !std::isfinite(value); });
     Pixel place = pixelAt(size, static_cast<std::size_t>(notFinite - image.data().begin()) / 3);
     throw Error(
         ErrorKind::input,

@@ -6,8 +6,10 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "relucent/base/message.h"
 #include "relucent/base/parallel.h"
@@ -443,10 +445,16 @@ double lightShare(const hdr::LampLight& seen, const ProjectorStack& pattern,
   const Rasters& projectors = references.projectors;
   std::vector<Eigen::Vector3f> means;
   for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
-    const auto count = static_cast<Eigen::Index>(projectors.size(projector).count());
-    means.push_back(Eigen::Map<const Eigen::Matrix3Xf>(&pattern[3 * projectors.offset(projector)], 3, count)
-                        .rowwise()
-                        .mean());
+    const std::size_t begin = projectors.offset(projector), count = projectors.size(projector).count();
+    std::array<Eigen::Vector3f, fixedParts> sums;
+    parallelChunks(begin, begin + count, fixedParts,
+                   [&](std::size_t part, std::size_t first, std::size_t last) {
+                     sums[part].setZero();
+                     for (std::size_t j = first; j < last; ++j)
+                       sums[part] += Eigen::Map<const Eigen::Vector3f>(&pattern[3 * j]);
+                   });
+    means.push_back(std::accumulate(sums.begin(), sums.end(), Eigen::Vector3f(0.0f, 0.0f, 0.0f)) /
+                    static_cast<float>(count));
   }
   const Rasters& cameras = references.cameras;
   double least = 1.0;

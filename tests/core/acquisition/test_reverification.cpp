@@ -135,7 +135,7 @@ class TestReverification : public QObject {
       for (float& value : seen.radiance) value *= 1.1f;
       seen.variance.assign(3 * rows, 1e-4f);
       seen.valid.assign(3 * rows, 1);
-      return sentinels::Interruptible<hdr::LampLight>(seen);
+      return sentinels::Interruptible<SeenLight>(std::make_shared<const hdr::LampLight>(seen));
     };
     AcquisitionSettings settings;
     CameraMask few(rows, 0);

@@ -17,6 +17,7 @@
 #include "relucent/pipeline/not_finished.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/transport/difference.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -91,18 +92,45 @@ AcquisitionFigures figuresOf(const transport::Acquisition& acquisition) {
           acquisition.verificationError, acquisition.findings};
 }
 
-compensation::MeasuredVenue measuredVenueOf(const transport::Acquisition& acquisition,
-                                            const transport::ThresholdSettings& threshold) {
+namespace {
+
+/// All that does not depend on which light is direct.
+compensation::MeasuredVenue venueOf(const transport::Acquisition& acquisition,
+                                    const transport::ThresholdSettings& threshold) {
   compensation::MeasuredVenue venue;
   venue.usable = usablePixels(acquisition);
   venue.transport = transport::thresholded(acquisition.transport, threshold, acquisition.flood);
   venue.black = acquisition.black;
   venue.flood = acquisition.flood;
-  Progress quiet;
-  venue.direct = compensation::directlyLit(compensation::directLooks(venue.transport, {}, quiet));
+  return venue;
+}
+
+void addWhatFollows(compensation::MeasuredVenue& venue, const transport::Acquisition& acquisition) {
   venue.views = compensation::viewMap(venue.transport, compensation::seesProjection(venue));
   venue.trust = compensation::trustIn(venue, varianceOf(acquisition));
+}
+
+}  // namespace
+
+compensation::MeasuredVenue measuredVenueOf(const transport::Acquisition& acquisition,
+                                            const transport::ThresholdSettings& threshold) {
+  compensation::MeasuredVenue venue = venueOf(acquisition, threshold);
+  Progress quiet;
+  venue.direct = compensation::directlyLit(compensation::directLooks(venue.transport, {}, quiet));
+  addWhatFollows(venue, acquisition);
   return venue;
+}
+
+RenewedVenue renewedVenueOf(const transport::Acquisition& acquisition,
+                            const transport::ThresholdSettings& threshold,
+                            const compensation::MeasuredVenue& former) {
+  compensation::MeasuredVenue venue = venueOf(acquisition, threshold);
+  CameraMask changed = transport::differingRows(venue.transport, former.transport);
+  venue.direct = compensation::renewedDirectlyLit(former.direct, former.transport, venue.transport, changed);
+  addWhatFollows(venue, acquisition);
+  for (std::size_t row = 0; row < changed.size(); ++row)
+    if (venue.usable[row] != former.usable[row]) changed[row] = 1;
+  return {std::move(venue), std::move(changed)};
 }
 
 namespace {

@@ -45,6 +45,17 @@ CameraMask usablePixels(const transport::Acquisition& acquisition);
 compensation::MeasuredVenue measuredVenueOf(const transport::Acquisition& acquisition,
                                             const transport::ThresholdSettings& threshold);
 
+struct RenewedVenue {
+  compensation::MeasuredVenue venue;
+  CameraMask
+      changed;  // camera pixels whose rows of T differ from those before, or that are usable now or were
+};
+/// The same as measuredVenueOf(), where `former` is that of a measurement from which this one became: rows
+/// that are as they were are not looked at again.
+RenewedVenue renewedVenueOf(const transport::Acquisition& acquisition,
+                            const transport::ThresholdSettings& threshold,
+                            const compensation::MeasuredVenue& former);
+
 /// Reads what was measured, without inverting it. Throws: as loadCalibration().
 compensation::MeasuredVenue loadMeasuredVenue(const calibration::CalibrationFolder& folder,
                                               Progress& progress);

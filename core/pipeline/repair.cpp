@@ -24,7 +24,6 @@
 #include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/pipeline/stored_settings.h"
-#include "relucent/transport/difference.h"
 
 namespace relucent::pipeline {
 namespace fs = std::filesystem;
@@ -218,15 +217,13 @@ class Repairing {
     now.rig = measured_.rig;
     now.reductions = measured_.reductions;
     now.linearization = measured_.linearization;
-    now.venue = measuredVenueOf(acquisition, chosen_.threshold);
-    CameraMask changed = transport::differingRows(now.venue.transport, measured_.venue.transport);
-    for (std::size_t row = 0; row < changed.size(); ++row)
-      if (now.venue.usable[row] != measured_.venue.usable[row]) changed[row] = 1;
+    RenewedVenue renewed = renewedVenueOf(acquisition, chosen_.threshold, measured_.venue);
+    now.venue = std::move(renewed.venue);
     Progress inverting = progress.part(
         0.4, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
     now.ridge = measured_.ridge;
-    now.inverse = inverse::renewWindows(measured_.inverse, changed, now.venue.transport, now.venue.usable,
-                                        windows(), inverting);
+    now.inverse = inverse::renewWindows(measured_.inverse, renewed.changed, now.venue.transport,
+                                        now.venue.usable, windows(), inverting);
     return now;
   }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "relucent/acquisition/mixed_rows.h"
 #include "relucent/acquisition/multiplexed.h"
+#include "relucent/acquisition/near_far_fit.h"
 #include "relucent/acquisition/repair.h"
 #include "relucent/acquisition/test_photographs.h"
 #include "relucent/base/error.h"
@@ -31,6 +33,8 @@ constexpr double referenceShare = 0.2, lookShare = 0.15, adaptShare = 0.1, measu
 
 // A view that moved by less, pixels anywhere in it, is none that rows had better be interpolated for.
 constexpr double leastMovement = 0.05;
+// Pixels, all patterns together, that tell whether a view moved.
+constexpr std::size_t comparedPixels = 4'000'000;
 // A change of all light by less is seen by nobody, and where something was painted light that bounced off it
 // is missing everywhere: all rows would be others for it.
 constexpr double leastLightChange = 0.01;
@@ -40,6 +44,8 @@ constexpr float leastOwnChange = 0.01f;
 // A row changes of its own where so many of the eight beside it do: of single rows that noise lifts beyond
 // that, one in a hundred, hardly any has them.
 constexpr int leastBeside = 2;
+// How far what a surface leaves of one projector channel's light may be from what it leaves of all, relative.
+constexpr float colourSpread = 0.2f;
 // Squares of a row's differences, beyond so many times what noise makes of them: 24 values or more, whose
 // squares are off by a third of their mean at one standard deviation.
 constexpr double beyondNoise = 2.5;
@@ -105,11 +111,26 @@ ColourBlock lightLeft(const std::vector<ColourBlock>& then, const std::vector<Co
   return left;
 }
 
+/// What is left of a projector channel's light in one camera channel, of a surface with other colours: of all
+/// channels' together, and of each by itself as far as noise lets it be known.
+Eigen::RowVector3f leftOfChannels(const Eigen::RowVector3f& now, const Eigen::RowVector3f& variance,
+                                  const Eigen::RowVector3f& expected) {
+  const float all = std::max(0.0f, now.sum() / expected.sum());
+  Eigen::RowVector3f left;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const float known = colourSpread * all * expected[k], squared = known * known;
+    const float ratio = expected[k] > 0.0f ? std::max(0.0f, now[k] / expected[k]) : all;
+    left[k] = squared > 0.0f ? all + (ratio - all) * squared / (squared + variance[k]) : all;
+  }
+  return left;
+}
+
 image::Image brightnessOf(const Stack& light, const Rasters& cameras, std::size_t camera) {
   image::Image picture(cameras.size(camera), 1);
   const std::size_t offset = cameras.offset(camera);
-  for (std::size_t i = 0; i < picture.data().size(); ++i)
+  parallelFor(0, picture.data().size(), 16384, [&](std::size_t i) {
     for (std::size_t c = 0; c < 3; ++c) picture.data()[i] += light[3 * (offset + i) + c];
+  });
   return picture;
 }
 
@@ -215,8 +236,8 @@ class Renewing {
         RELUCENT_MESSAGE("stage.adapting-light-transport", "fitting the light transport to what is seen"));
     unknown_.assign(counted.size(), 0);
     TransportMatrix adapted = moved(renewal.change, references, tests, adapting);
-    adapted = scaled(renewal.change, adapted, references);
-    auto fitted = tests.compared(adapted, counted, adapting);
+    adapted = nearAndFarFitted(scaled(renewal.change, adapted, references), references, tests);
+    auto fitted = comparedAgain(*before, renewal.change, adapted, counted, tests, adapting);
     if (!fitted) return fitted.interruption();
     const bool isBetter = renewal.errorBefore > 0.0 && errorOf(fitted->rows) < renewal.errorBefore;
     if (!isBetter && !isLightOther(renewal.change)) {
@@ -296,6 +317,19 @@ class Renewing {
     return wrong;
   }
 
+  /// The share of all rows' squared errors that wrong ones have, beyond noise and what they had when they
+  /// were measured: at most that is to be gained by measuring them.
+  double errorOfWrong(const Verification& verification, const CameraMask& wrong) const {
+    double gained = 0.0, all = 0.0;
+    for (std::size_t row = 0; row < wrong.size(); ++row) {
+      const Residual& found = verification.rows[row];
+      all += found.squared;
+      if (wrong[row])
+        gained += std::max(0.0, found.squared - found.noise - std::pow(errorThen(row), 2.0) * found.light);
+    }
+    return all > 0.0 ? gained / all : 0.0;
+  }
+
   static bool isLightOther(const VenueChange& change) {
     return change.scaled > 0.0 || std::ranges::any_of(change.light, [](const ColourBlock& light) {
              return light != ColourBlock::Ones();
@@ -307,9 +341,12 @@ class Renewing {
   TransportMatrix moved(VenueChange& change, const photography::References& references,
                         const TestPhotographs& tests, Progress& progress) {
     const Rasters& cameras = references.cameras;
+    // Of many pixels few patterns tell enough; the first have blocks of all sizes.
+    const std::size_t patterns = std::min(
+        tests.patterns().size(), std::max<std::size_t>(verificationSizes, comparedPixels / cameras.count()));
     std::vector<CameraStack> predicted;
-    for (const ProjectorStack& pattern : tests.patterns())
-      predicted.push_back(former_.transport.apply(pattern));
+    for (std::size_t number = 0; number < patterns; ++number)
+      predicted.push_back(former_.transport.apply(tests.patterns()[number]));
     const Floods floods = floodsOf(references);
     change.moved.resize(cameras.devices());
     change.pictures.resize(cameras.devices());
@@ -319,7 +356,7 @@ class Renewing {
           {brightnessOf(former_.flood, cameras, camera), brightnessOf(floods.light, cameras, camera)}};
       for (std::size_t i = 0; i < predicted.size(); ++i)
         views.push_back({brightnessOf(predicted[i], cameras, camera),
-                         brightnessOf(tests.light()[i].radiance, cameras, camera)});
+                         brightnessOf(tests.light()[i]->radiance, cameras, camera)});
       const sentinels::Movement ofAll = sentinels::movementBetween(views);
       progress.checkpoint();
       if (!isMovement(ofAll, cameras.size(camera))) continue;
@@ -339,30 +376,32 @@ class Renewing {
   }
 
   TransportMatrix scaled(VenueChange& change, const TransportMatrix& transport,
-                         const photography::References& references) const {
+                         const photography::References& references) {
     const Roots then = rootsOf(transport);
     for (std::size_t projector = 0; projector < then.size(); ++projector)
       change.light.push_back(
           lightLeft(then[projector], references.root[projector], references.usable, references.typical));
     Roots factor(then.size(), std::vector<ColourBlock>(references.usable.size(), ColourBlock::Ones()));
-    CameraMask own(references.usable.size(), 0);
+    CameraMask& own = ofItsOwn_;
+    own.assign(references.usable.size(), 0);
     for (std::size_t projector = 0; projector < then.size(); ++projector)
       parallelFor(0, own.size(), 1024, [&](std::size_t row) {
         const ColourBlock expected = change.light[projector].cwiseProduct(then[projector][row]);
         const Eigen::Array3f before = expected.rowwise().sum(),
                              now = references.root[projector][row].rowwise().sum(),
                              variance = references.rootVariance[projector][row].rowwise().sum();
-        Eigen::Array3f share = Eigen::Array3f::Ones();
+        ColourBlock left = ColourBlock::Ones();
         for (Eigen::Index c = 0; c < 3; ++c) {
           const float apart = std::abs(now[c] - before[c]);
           if (!references.usable[row] || !(before[c] > enoughLight * references.typical) ||
               apart < leastOwnChange * before[c] ||
               static_cast<double>(apart) < ownSigmas * std::sqrt(static_cast<double>(variance[c])))
             continue;
-          share[c] = std::max(0.0f, now[c] / before[c]);
+          left.row(c) = leftOfChannels(references.root[projector][row].row(c),
+                                       references.rootVariance[projector][row].row(c), expected.row(c));
           own[row] = 1;
         }
-        factor[projector][row] = share.matrix().asDiagonal() * change.light[projector];
+        factor[projector][row] = left.cwiseProduct(change.light[projector]);
       });
     own = together(own, references.cameras);
     change.scaled = shareOf(own, references.usable);
@@ -372,6 +411,59 @@ class Renewing {
     });
   }
 
+  /// Where a surface has become another: what it scatters and what it mirrors changed by different shares.
+  TransportMatrix nearAndFarFitted(TransportMatrix transport, const photography::References& references,
+                                   const TestPhotographs& tests) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    if (std::ranges::count(ofItsOwn_, 1) == 0) return transport;
+    const Rasters& projectors = references.projectors;
+    std::vector<ProjectorStack> white(projectors.devices(), ProjectorStack(3 * projectors.count(), 0.0f));
+    std::vector<SeenPattern> seen;
+    for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
+      std::fill_n(white[projector].begin() + static_cast<std::ptrdiff_t>(3 * projectors.offset(projector)),
+                  3 * projectors.size(projector).count(), 1.0f);
+      seen.push_back({white[projector], [&references, projector](std::size_t value) -> SeenPattern::Light {
+                        const auto channel = static_cast<Eigen::Index>(value % 3);
+                        return {references.root[projector][value / 3].row(channel).sum(),
+                                references.rootVariance[projector][value / 3].row(channel).sum()};
+                      }});
+    }
+    for (std::size_t number = 0; number < tests.patterns().size(); ++number)
+      seen.push_back({tests.patterns()[number],
+                      [&light = *tests.light()[number]](std::size_t value) -> SeenPattern::Light {
+                        return {light.radiance[value], light.valid[value] ? light.variance[value] : infinity};
+                      }});
+    return acquisition::nearAndFarFitted(std::move(transport), ofItsOwn_, seen);
+  }
+
+  /// What test patterns say of the adapted T. Where neither a view nor a lamp has changed, they say of most
+  /// rows what they said `before`.
+  sentinels::Interruptible<Verification> comparedAgain(const Verification& before, const VenueChange& change,
+                                                       const TransportMatrix& adapted,
+                                                       const CameraMask& counted, TestPhotographs& tests,
+                                                       Progress& progress) const {
+    const auto isMoved = [](const sentinels::Movement& movement) { return movement.explains; };
+    const bool isOfSurfaces =
+        std::ranges::none_of(change.moved, isMoved) && std::ranges::none_of(change.pictures, isMoved) &&
+        std::ranges::all_of(change.light,
+                            [](const ColourBlock& left) { return left == ColourBlock::Ones(); });
+    if (!isOfSurfaces) return tests.compared(adapted, counted, progress);
+    CameraMask rows = counted;
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      if (!ofItsOwn_[row]) rows[row] = 0;
+    auto found = tests.compared(adapted, rows, progress);
+    if (!found) return found.interruption();
+    Verification all = before;
+    for (std::size_t size = 0; size < all.residual.size(); ++size)
+      replaceRows(all.residual[size], found->residual[size], rows);
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      if (!rows[row]) continue;
+      all.rows[row] = found->rows[row];
+      all.flagged[row] = found->flagged[row];
+    }
+    return all;
+  }
+
   /// Which rows are to be measured; none: it is not worth while.
   CameraMask toMeasure(const Verification& fitted, const photography::References& references,
                        const CameraMask& counted) const {
@@ -379,7 +471,9 @@ class Renewing {
     for (std::size_t row = 0; row < wrong.size(); ++row)
       if (unknown_[row] && references.usable[row]) wrong[row] = 1;
     const double share = shareOf(wrong, references.usable);
-    if (share < settings_.measuredFrom) return CameraMask(wrong.size(), 0);
+    if (share < settings_.measuredFrom || (shareOf(unknown_, references.usable) < settings_.measuredFrom &&
+                                           errorOfWrong(fitted, wrong) < settings_.worthMeasuring))
+      return CameraMask(wrong.size(), 0);
     if (share > settings_.allFrom) return references.usable;
     wrong = widened(wrong, references.cameras);
     for (std::size_t row = 0; row < wrong.size(); ++row)
@@ -499,6 +593,7 @@ class Renewing {
   photography::Photographer photographer_;
   AcquisitionSettings patterns_;
   CameraMask unknown_;
+  CameraMask ofItsOwn_;      // rows whose light has become another than that of all
   CameraMask measuredRows_;  // empty: none
   Floods measuredFloods_;
 };

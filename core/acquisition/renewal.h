@@ -35,8 +35,10 @@ struct RenewalSettings {
   double wrongFrom = 0.05;      // a row is wrong from this relative error on, beyond noise, ...
   double timesBefore = 2.0;     // and from so many times what it had when it was measured
   double measuredFrom = 0.002;  // wrong rows are measured again if there is at least this share of them
-  double allFrom = 0.5;         // from this share on all rows are
-  double leastLight = 0.1;      // of what there was: less is a projector that is off, or a covered lens
+  double worthMeasuring =
+      0.05;              // ... if they have at least this share of all squared errors, beyond those of then
+  double allFrom = 0.5;  // from this share on all rows are
+  double leastLight = 0.1;  // of what there was: less is a projector that is off, or a covered lens
 };
 
 /// Makes T fit a venue that has changed, from as few photographs as that takes: black, floods and test

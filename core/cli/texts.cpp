@@ -85,11 +85,11 @@ std::string outcomeOf(const pipeline::RepairResult& result) {
 std::string textOf(const pipeline::RepairResult& result) {
   std::string text = outcomeOf(result);
   for (const Message& what : result.what) text += fmt::format("  {}\n", what);
-  text += fmt::format(
-      "Error of test patterns: {:.1f} % -> {:.1f} % ({:.1f} % when it was measured); {:.1f} % of "
-      "the camera pixels were measured again.\n",
-      100.0 * result.errorBefore, 100.0 * result.errorAfter, 100.0 * result.errorThen,
-      100.0 * result.measured);
+  text += fmt::format("Error of test patterns: {:.1f} % -> {:.1f} % ({:.1f} % when it was measured); {}.\n",
+                      100.0 * result.errorBefore, 100.0 * result.errorAfter, 100.0 * result.errorThen,
+                      result.measured > 0.0 ? fmt::format("{:.1f} % of the camera pixels were measured again",
+                                                          100.0 * result.measured)
+                                            : "no camera pixel had to be measured again");
   if (!result.after.empty())
     text += fmt::format("Colour error of a picture: {} -> {}.\n", figuresOf(result.before),
                         figuresOf(result.after));

@@ -100,9 +100,8 @@ std::string repairSentence(const ReportRepair& repair) {
   std::string what;
   for (const Message& message : repair.what) what += englishSentence(message) + " ";
   return fmt::format(
-      "Repaired on {}: only what had changed was measured again. {}The mean colour error ΔE of a "
-      "photographed "
-      "picture went from {:.1f} to {:.1f}.",
+      "Repaired on {}: the calibration was made to fit what had changed. {}The mean colour error ΔE of a "
+      "photographed picture went from {:.1f} to {:.1f}.",
       localTime(repair.when), what, repair.deltaEBefore, repair.deltaEAfter);
 }
 

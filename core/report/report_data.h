@@ -71,7 +71,7 @@ struct ReportPerfected {
   pipeline::PerfectedFigures figures;
 };
 
-/// That only what had changed was measured again.
+/// That it was made to fit what had changed, instead of being measured again.
 struct ReportRepair {
   std::string when;  // ISO 8601
   std::vector<Message> what;

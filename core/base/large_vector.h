@@ -11,8 +11,9 @@
 
 namespace relucent {
 
-/// Memory from the heap for little, and for much from a mapped file (platform/scratch_memory.h), so that what
-/// is gigabytes at full scale need not stay in memory as a whole: the system keeps what is in use.
+/// Memory from the heap for little, and for much, where the machine does not have plenty of it, from a mapped
+/// file (platform/scratch_memory.h), so that what is gigabytes at full scale need not stay in memory as a
+/// whole: the system keeps what is in use.
 template <typename Value>
 class LargeAllocator {
  public:

@@ -13,14 +13,26 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double shareOfMachine = 0.8;
+constexpr std::uint64_t leastFree = std::uint64_t{8} << 30;
 constexpr std::uint64_t mappedInVain = std::uint64_t{128} << 20;
 
-std::uint64_t memoryOfMachine(const fs::path& root) {
+struct MachineMemory {
+  std::uint64_t whole = noMemoryLimit, free = 0;
+};
+
+MachineMemory memoryOfMachine(const fs::path& root) {
   constexpr std::uint64_t kibibyte = 1024;
+  MachineMemory machine;
   std::ifstream info(root / "proc/meminfo");
-  for (std::string name, rest; info >> name; std::getline(info, rest))
-    if (std::uint64_t kibibytes = 0; name == "MemTotal:" && info >> kibibytes) return kibibyte * kibibytes;
-  return noMemoryLimit;
+  for (std::string name, rest; info >> name; std::getline(info, rest)) {
+    std::uint64_t kibibytes = 0;
+    if (name == "MemTotal:" && info >> kibibytes) machine.whole = kibibyte * kibibytes;
+    if (name == "MemAvailable:" && info >> kibibytes) {
+      machine.free = kibibyte * kibibytes;
+      break;
+    }
+  }
+  return machine;
 }
 
 /// The number in a file; none where there is a word ("max") or no file.
@@ -69,7 +81,8 @@ std::uint64_t less(std::uint64_t limit, std::uint64_t used) {
 }  // namespace
 
 MemoryLimits memoryLimits(const fs::path& root) {
-  return {memoryOfMachine(root), limitOfGroup(root), addressSpaceLimit()};
+  const MachineMemory machine = memoryOfMachine(root);
+  return {machine.whole, limitOfGroup(root), addressSpaceLimit(), machine.free};
 }
 
 MemoryUse memoryUse() {
@@ -91,6 +104,18 @@ MemoryUse memoryLeft(const MemoryLimits& limits, const MemoryUse& use) {
 
 MemoryUse memoryLeft() {
   return memoryLeft(memoryLimits(), memoryUse());
+}
+
+bool isPlenty(std::uint64_t bytes, const MemoryLimits& limits, const MemoryUse& use) {
+  const auto staysFree = [bytes](std::uint64_t whole, std::uint64_t free) {
+    return free >= bytes && free - bytes >= std::max(leastFree, whole / 2);
+  };
+  return limits.machine != noMemoryLimit && staysFree(limits.machine, limits.free) &&
+         (limits.group == noMemoryLimit || staysFree(limits.group, less(limits.group, use.resident)));
+}
+
+bool isPlenty(std::uint64_t bytes) {
+  return isPlenty(bytes, memoryLimits(), memoryUse());
 }
 
 }  // namespace relucent::platform

@@ -14,6 +14,7 @@ struct MemoryLimits {
   std::uint64_t machine = noMemoryLimit;       // that it has
   std::uint64_t group = noMemoryLimit;         // of the control group, and of those that it is in
   std::uint64_t addressSpace = noMemoryLimit;  // of this program: what is mapped, used or not
+  std::uint64_t free = 0;  // of the machine's, without moving anything to the disk; 0: not known
 };
 
 /// What a program takes, may take or would take. Bytes.
@@ -35,6 +36,12 @@ MemoryUse memoryUse();
 MemoryUse memoryLeft(const MemoryLimits& limits, const MemoryUse& use);
 /// Now.
 MemoryUse memoryLeft();
+
+/// Whether so many bytes may be taken for good, beside what this program has: afterwards half of the
+/// machine's and of the control group's memory is still free, and at least 8 GiB.
+bool isPlenty(std::uint64_t bytes, const MemoryLimits& limits, const MemoryUse& use);
+/// Now.
+bool isPlenty(std::uint64_t bytes);
 
 /// Whether what is needed is left.
 inline bool fits(const MemoryUse& needed, const MemoryUse& left) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "relucent/base/large_vector.h"
+#include "relucent/platform/memory_limits.h"
 
 using namespace relucent;
 
@@ -48,6 +49,7 @@ class TestLargeVector : public QObject {
     QCOMPARE(copy.back(), 999);
   }
 
+  /// Law: much lies in a file, except where the machine has plenty of memory; nobody sees that file.
   void muchLiesInAFileThatNobodySees() {
     QTemporaryDir folder;
     qputenv("TMPDIR", folder.path().toLocal8Bit());
@@ -55,8 +57,9 @@ class TestLargeVector : public QObject {
     {
       LargeVector<int> little(large / 2, 1);
       QCOMPARE(mappedScratch(path), 0);
+      const bool isInMemory = platform::isPlenty(large * sizeof(int));
       LargeVector<int> much(large, 1);
-      QCOMPARE(mappedScratch(path), 1);
+      QCOMPARE(mappedScratch(path), isInMemory ? 0 : 1);
       QVERIFY(std::filesystem::is_empty(path));
       QCOMPARE(std::accumulate(much.begin(), much.end(), 0), static_cast<int>(large));
     }

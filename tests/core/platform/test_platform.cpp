@@ -129,6 +129,7 @@ class TestPlatform : public QObject {
     const MemoryLimits limits = memoryLimits(root.path().toStdString());
     QCOMPARE(quint64{limits.machine}, machine);
     QCOMPARE(quint64{limits.group}, group);
+    QCOMPARE(quint64{limits.free}, quint64{0});  // MemFree is another thing
   }
   void memoryThatIsLeft_data() {
     QTest::addColumn<quint64>("machine");
@@ -156,6 +157,50 @@ class TestPlatform : public QObject {
     QCOMPARE(quint64{found.resident}, left);
     QCOMPARE(quint64{found.addressSpace}, leftToMap);
   }
+  void plentyLeavesHalfAndEightGibibytes_data() {
+    QTest::addColumn<quint64>("machine");
+    QTest::addColumn<quint64>("free");
+    QTest::addColumn<quint64>("group");
+    QTest::addColumn<quint64>("most");  // that is plenty with 1 GiB in use; 0: nothing is
+    const quint64 none = noMemoryLimit, gibibyte = quint64{1} << 30;
+    QTest::newRow("nothing known") << none << quint64{0} << none << quint64{0};
+    QTest::newRow("no machine told") << none << 100 * gibibyte << none << quint64{0};
+    QTest::newRow("what is free not told") << 64 * gibibyte << quint64{0} << none << quint64{0};
+    QTest::newRow("a small machine") << 8 * gibibyte << 7 * gibibyte << none << quint64{0};
+    QTest::newRow("a usual one") << 16 * gibibyte << 13 * gibibyte << none << 5 * gibibyte;
+    QTest::newRow("others use it") << 16 * gibibyte << 9 * gibibyte << none << gibibyte;
+    QTest::newRow("a large one") << 64 * gibibyte << 60 * gibibyte << none << 28 * gibibyte;
+    QTest::newRow("a small group") << 64 * gibibyte << 60 * gibibyte << 4 * gibibyte << quint64{0};
+    QTest::newRow("a group of half") << 64 * gibibyte << 60 * gibibyte << 32 * gibibyte << 15 * gibibyte;
+    QTest::newRow("less free than in use") << 16 * gibibyte << gibibyte << none << quint64{0};
+  }
+  void plentyLeavesHalfAndEightGibibytes() {
+    QFETCH(quint64, machine);
+    QFETCH(quint64, free);
+    QFETCH(quint64, group);
+    QFETCH(quint64, most);
+    const MemoryLimits limits{machine, group, noMemoryLimit, free};
+    const MemoryUse use{std::uint64_t{1} << 30};
+    QCOMPARE(isPlenty(1, limits, use), most > 0);
+    if (most > 0) QVERIFY(isPlenty(most, limits, use));
+    QVERIFY(!isPlenty(most + 1, limits, use));
+    QVERIFY(!isPlenty(noMemoryLimit, limits, use));
+  }
+  /// Law: memory for what is large is zeros, can be written, and is given back, of either kind.
+  void scratchIsZerosAndIsGivenBack() {
+    constexpr std::size_t bytes = std::size_t{40} << 20;
+    for (void* (*map)(std::size_t) : {&mapScratch, &mapScratchFile}) {
+      const MemoryUse before = memoryUse();
+      auto* memory = static_cast<char*>(map(bytes));
+      QVERIFY(memory != nullptr);
+      QCOMPARE(std::count(memory, memory + bytes, '\0'), static_cast<std::ptrdiff_t>(bytes));
+      std::fill_n(memory, bytes, 'x');
+      QVERIFY(memoryUse().addressSpace >= before.addressSpace + bytes);
+      unmapScratch(memory, bytes);
+      QVERIFY(memoryUse().addressSpace < before.addressSpace + bytes);
+    }
+  }
+
   /// Of this machine: there is some, and this program takes some of it; what lies in files only of its
   /// addresses.
   void memoryOfThisProgramIsKnown() {
@@ -165,7 +210,8 @@ class TestPlatform : public QObject {
     const MemoryUse more = memoryUse();
     QVERIFY(more.resident >= before.resident + bytes / 2 && more.addressSpace > more.resident);
     QVERIFY(memoryLimits().machine > more.resident && memoryLimits().machine != noMemoryLimit);
-    void* scratch = mapScratch(bytes);
+    QVERIFY(memoryLimits().free > bytes && memoryLimits().free < memoryLimits().machine);
+    void* scratch = mapScratchFile(bytes);
     QVERIFY(scratch != nullptr);
     std::fill_n(static_cast<char*>(scratch), bytes, touched.back());
     const MemoryUse mapped = memoryUse();

@@ -44,7 +44,7 @@ std::vector<Bid> highestBids(const transport::TransportMatrix& transport, const 
   parallelFor(0, rows, 256, [&](std::size_t row) {
     if (!usable[row]) return;
     const LookedAtRow leaves(rule, transport.row(row));
-    const float most = leaves.look().light;
+    const float most = leaves.mostLight();
     leaves.eachDirect([&](std::size_t, const LookedAtRow::Leaf& leaf) {
       if (!(leaf.light > 0.0f) || leaf.light < leastShare * most) return;
       for (int y = leaf.block.y0; y < leaf.block.y1; ++y)

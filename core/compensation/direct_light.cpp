@@ -55,8 +55,9 @@ LookedAtRow::LookedAtRow(const DirectLeaves& rule, const transport::LeafRow& lea
   for (std::size_t k = 0; k < leaves.colourings(); ++k)
     sums.push_back(leaves.colours(k).colwise().sum().transpose().array());
   leaves_.reserve(leaves.size());
+  transport::NodeCursor nodeAt(rule.layout_);
   leaves.eachFactor([&](std::size_t entry, std::size_t k, const Eigen::Array3f& factor) {
-    const transport::Node node = rule.layout_.node(leaves.column(entry));
+    const transport::Node node = nodeAt(leaves.column(entry));
     Leaf& leaf = leaves_.emplace_back();
     leaf.block = rule.layout_.block(node);
     leaf.projector = static_cast<std::size_t>(node.projector);
@@ -66,6 +67,12 @@ LookedAtRow::LookedAtRow(const DirectLeaves& rule, const transport::LeafRow& lea
     if (leaf.light > place.light)
       place = {leaf.light, 0.5 * (leaf.block.x0 + leaf.block.x1), 0.5 * (leaf.block.y0 + leaf.block.y1)};
   });
+}
+
+float LookedAtRow::mostLight() const {
+  float most = 0.0f;
+  for (const Place& place : places_) most = std::max(most, place.light);
+  return most;
 }
 
 DirectLook LookedAtRow::look() const {

@@ -71,13 +71,14 @@ class LookedAtRow {
   LookedAtRow(const DirectLeaves& rule, const transport::LeafRow& leaves);
 
   DirectLook look() const;
+  /// Of that alone `light`.
+  float mostLight() const;
   /// Calls visit(entry, leaf) for the direct leaves.
   template <typename Visit>
   void eachDirect(const Visit& visit) const {
     // Where another projector lights a pixel directly, light of this one in its own shadow is indirect.
     constexpr float leastShare = 0.1f;
-    float most = 0.0f;
-    for (const Place& place : places_) most = std::max(most, place.light);
+    const float most = mostLight();
     for (std::size_t entry = 0; entry < leaves_.size(); ++entry) {
       const Leaf& leaf = leaves_[entry];
       const Place& place = places_[leaf.projector];

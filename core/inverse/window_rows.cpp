@@ -78,8 +78,9 @@ class ReachFinder {
     reach_.clear();
     narrow_.clear();
     wide_.clear();
+    transport::NodeCursor nodeAt(layout_);
     for (std::size_t leaf = near_.start[row]; leaf < near_.start[row + 1]; ++leaf) {
-      const Patch patch = patchOf(layout_.node(near_.node[leaf]), near_.value(row, leaf), tiles_, tileLevel_);
+      const Patch patch = patchOf(nodeAt(near_.node[leaf]), near_.value(row, leaf), tiles_, tileLevel_);
       (patch.tiles() > mostTilesOfARow ? wide_ : narrow_).push_back(patch);
     }
     for (const Patch& patch : narrow_) addFirst(patch, patch.tiles());

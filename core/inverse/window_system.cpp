@@ -48,9 +48,10 @@ void WindowSystem::gatherLeaves(std::span<const std::uint32_t> rows) {
     return a.node != b.node ? a.node < b.node : a.local < b.local;
   });
   groups_.clear();
+  transport::NodeCursor nodeAt(layout_);
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     if (i == 0 || leaves_[i].node != leaves_[i - 1].node) {
-      transport::Node place = layout_.node(leaves_[i].node);
+      transport::Node place = nodeAt(leaves_[i].node);
       groups_.push_back({leaves_[i].node, place, static_cast<float>(layout_.block(place).count()), i, i});
     }
     groups_.back().end = i + 1;

@@ -139,14 +139,15 @@ namespace {
 std::uint64_t connectionsOf(const transport::TransportMatrix& transport) {
   std::array<std::uint64_t, fixedParts> connections{};
   const transport::NodeLayout& layout = transport.layout();
-  parallelChunks(
-      0, transport.cameras().count(), fixedParts, [&](std::size_t part, std::size_t first, std::size_t last) {
-        for (std::size_t row = first; row < last; ++row) {
-          const transport::LeafRow leaves = transport.row(row);
-          for (std::uint32_t column : leaves.columns())
-            connections[part] += static_cast<std::uint64_t>(layout.block(layout.node(column)).count());
-        }
-      });
+  parallelChunks(0, transport.cameras().count(), fixedParts,
+                 [&](std::size_t part, std::size_t first, std::size_t last) {
+                   for (std::size_t row = first; row < last; ++row) {
+                     const transport::LeafRow leaves = transport.row(row);
+                     transport::NodeCursor nodeAt(layout);
+                     for (std::uint32_t column : leaves.columns())
+                       connections[part] += static_cast<std::uint64_t>(layout.block(nodeAt(column)).count());
+                   }
+                 });
   return std::reduce(connections.begin(), connections.end());
 }
 

@@ -63,6 +63,24 @@ Block NodeLayout::block(const Node& node) const {
           std::min((node.y + 1) * side, size.height)};
 }
 
+void NodeCursor::enterGridOf(std::size_t index) {
+  require(index < layout_.count_, "node {} of {}", index, layout_.count_);
+  // In the order in which they are numbered: level after level, of each all projectors.
+  while (index >= gridEnd_) {
+    if (++projector_ == static_cast<int>(layout_.grids_.size())) {
+      projector_ = 0;
+      ++level_;
+    }
+    const auto& pyramid = layout_.grids_[static_cast<std::size_t>(projector_)];
+    if (level_ >= static_cast<int>(pyramid.size())) continue;
+    const NodeLayout::Grid& grid = pyramid[static_cast<std::size_t>(level_)];
+    gridBegin_ = grid.offset;
+    gridEnd_ = grid.offset + grid.size.count();
+    width_ = static_cast<std::size_t>(grid.size.width);
+  }
+  enterLineOf(index);
+}
+
 std::vector<Node> NodeLayout::children(const Node& node) const {
   require(node.level > 0, "a pixel has no children");
   Size finer = gridSize(static_cast<std::size_t>(node.projector), node.level - 1);

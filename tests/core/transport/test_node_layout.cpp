@@ -53,6 +53,21 @@ class TestNodeLayout : public QObject {
     }
   }
 
+  /// Law: who goes up through some of the numbers meets the nodes that have them, one more than once, too.
+  void aCursorMeetsTheSameNodes_data() { sizes_data(); }
+  void aCursorMeetsTheSameNodes() {
+    QFETCH(QString, sizes);
+    const NodeLayout layout((Rasters(sizesOf(sizes))));
+    for (std::size_t step : {1u, 2u, 3u, 7u, 50u}) {
+      NodeCursor nodeAt(layout);
+      for (std::size_t index = step / 2; index < layout.count(); index += step) {
+        QVERIFY(nodeAt(index) == layout.node(index));
+        QVERIFY(nodeAt(index) == layout.node(index));
+      }
+      QVERIFY_EXCEPTION_THROWN(nodeAt(layout.count()), std::logic_error);
+    }
+  }
+
   void childrenPartitionTheirParent_data() { sizes_data(); }
   void childrenPartitionTheirParent() {
     QFETCH(QString, sizes);

@@ -1,161 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/acquisition/renewal.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "relucent/acquisition/fitted_transport.h"
 #include "relucent/acquisition/mixed_rows.h"
 #include "relucent/acquisition/multiplexed.h"
-#include "relucent/acquisition/near_far_fit.h"
 #include "relucent/acquisition/repair.h"
 #include "relucent/acquisition/test_photographs.h"
 #include "relucent/base/error.h"
-#include "relucent/base/parallel.h"
 #include "relucent/sentinels/black_following.h"
 #include "relucent/transport/leaf_sharing.h"
-#include "relucent/transport/moved_rows.h"
 
 namespace relucent::acquisition {
 namespace {
 
 using transport::ColourBlock;
-using transport::TransportMatrix;
 
 // Shares of the time.
 constexpr double referenceShare = 0.2, lookShare = 0.15, adaptShare = 0.1, measureShare = 0.45;
 
-// A view that moved by less, pixels anywhere in it, is none that rows had better be interpolated for.
-constexpr double leastMovement = 0.05;
-// Pixels, all patterns together, that tell whether a view moved.
-constexpr std::size_t comparedPixels = 4'000'000;
-// A change of all light by less is seen by nobody, and where something was painted light that bounced off it
-// is missing everywhere: all rows would be others for it.
-constexpr double leastLightChange = 0.01;
-// A row's own change: beyond so many standard deviations and this share.
-constexpr double ownSigmas = 4.0;
-constexpr float leastOwnChange = 0.01f;
-// A row changes of its own where so many of the eight beside it do: of single rows that noise lifts beyond
-// that, one in a hundred, hardly any has them.
-constexpr int leastBeside = 2;
-// How far what a surface leaves of one projector channel's light may be from what it leaves of all, relative.
-constexpr float colourSpread = 0.2f;
 // Squares of a row's differences, beyond so many times what noise makes of them: 24 values or more, whose
 // squares are off by a third of their mean at one standard deviation.
 constexpr double beyondNoise = 2.5;
-// A row's light from one projector says what became of it where it is this share of the typical flood.
-constexpr float enoughLight = 0.05f;
 // Rows around wrong ones are measured with them, pixels: an edge that moved is wrong by halves beside it.
 constexpr int around = 1;
-
-double shareOf(const CameraMask& flags, const CameraMask& among) {
-  std::size_t set = 0, all = 0;
-  for (std::size_t row = 0; row < flags.size(); ++row) {
-    if (!among[row]) continue;
-    ++all;
-    set += flags[row] ? 1 : 0;
-  }
-  return all > 0 ? static_cast<double>(set) / static_cast<double>(all) : 0.0;
-}
-
-/// What each projector's channels give each camera pixel: [projector][row], the sums of T's blocks.
-using Roots = std::vector<std::vector<ColourBlock>>;
-
-Roots rootsOf(const TransportMatrix& transport) {
-  const Rasters& projectors = transport.projectors();
-  const std::size_t rows = transport.cameras().count();
-  Roots roots(projectors.devices(), std::vector<ColourBlock>(rows, ColourBlock::Zero()));
-  for (std::size_t projector = 0; projector < projectors.devices(); ++projector)
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      ProjectorStack pattern(3 * projectors.count(), 0.0f);
-      for (std::size_t pixel = 0; pixel < projectors.size(projector).count(); ++pixel)
-        pattern[3 * (projectors.offset(projector) + pixel) + channel] = 1.0f;
-      const CameraStack light = transport.apply(pattern);
-      parallelFor(0, rows, 4096, [&](std::size_t row) {
-        roots[projector][row].col(static_cast<Eigen::Index>(channel)) =
-            Eigen::Map<const Eigen::Vector3f>(&light[3 * row]);
-      });
-    }
-  return roots;
-}
-
-float medianOf(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// What the light of a projector has become, as a share of what it was: the median over rows that have
-/// enough of it, value by value; 1 where nothing can be said or nothing has changed.
-ColourBlock lightLeft(const std::vector<ColourBlock>& then, const std::vector<ColourBlock>& now,
-                      const CameraMask& rows, float typical) {
-  ColourBlock left = ColourBlock::Ones();
-  parallelFor(0, static_cast<std::size_t>(left.size()), 1, [&](std::size_t value) {
-    const auto camera = static_cast<Eigen::Index>(value / 3), channel = static_cast<Eigen::Index>(value % 3);
-    std::vector<float> ratio;
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      const float before = then[row](camera, channel);
-      if (rows[row] && then[row].sum() > enoughLight * typical && before > 0.0f)
-        ratio.push_back(now[row](camera, channel) / before);
-    }
-    if (ratio.empty()) return;
-    const float median = std::max(0.0f, medianOf(ratio));
-    if (std::abs(static_cast<double>(median) - 1.0) > leastLightChange) left(camera, channel) = median;
-  });
-  return left;
-}
-
-/// What is left of a projector channel's light in one camera channel, of a surface with other colours: of all
-/// channels' together, and of each by itself as far as noise lets it be known.
-Eigen::RowVector3f leftOfChannels(const Eigen::RowVector3f& now, const Eigen::RowVector3f& variance,
-                                  const Eigen::RowVector3f& expected) {
-  const float all = std::max(0.0f, now.sum() / expected.sum());
-  Eigen::RowVector3f left;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const float known = colourSpread * all * expected[k], squared = known * known;
-    const float ratio = expected[k] > 0.0f ? std::max(0.0f, now[k] / expected[k]) : all;
-    left[k] = squared > 0.0f ? all + (ratio - all) * squared / (squared + variance[k]) : all;
-  }
-  return left;
-}
-
-image::Image brightnessOf(const Stack& light, const Rasters& cameras, std::size_t camera) {
-  image::Image picture(cameras.size(camera), 1);
-  const std::size_t offset = cameras.offset(camera);
-  parallelFor(0, picture.data().size(), 16384, [&](std::size_t i) {
-    for (std::size_t c = 0; c < 3; ++c) picture.data()[i] += light[3 * (offset + i) + c];
-  });
-  return picture;
-}
-
-bool isMovement(const sentinels::Movement& movement, Size size) {
-  const double turned = std::abs(movement.degrees) * std::numbers::pi / 180.0 * 0.5 *
-                        static_cast<double>(std::max(size.width, size.height));
-  return movement.explains && std::hypot(movement.x, movement.y) + turned > leastMovement;
-}
-
-bool areAlike(const sentinels::Movement& a, const sentinels::Movement& b) {
-  return std::hypot(a.x - b.x, a.y - b.y) < 0.5 * std::hypot(b.x, b.y);
-}
-
-/// Where what pixels see now was in the picture before it moved.
-transport::FormerPlace formerPlaces(const std::vector<sentinels::Movement>& moved, const Rasters& cameras) {
-  return [&moved, &cameras](std::size_t camera, const Pixel& place) -> Eigen::Vector2d {
-    const sentinels::Movement& movement = moved[camera];
-    const Size size = cameras.size(camera);
-    const Eigen::Vector2d centre(0.5 * (size.width - 1), 0.5 * (size.height - 1));
-    const Eigen::Rotation2D<double> turned(movement.degrees * std::numbers::pi / 180.0);
-    return turned.inverse() *
-               (Eigen::Vector2d(place.x, place.y) - centre - Eigen::Vector2d(movement.x, movement.y)) +
-           centre;
-  };
-}
 
 /// The same flags, and those of pixels around.
 CameraMask widened(const CameraMask& flags, const Rasters& cameras) {
@@ -172,25 +45,6 @@ CameraMask widened(const CameraMask& flags, const Rasters& cameras) {
     }
   }
   return wide;
-}
-
-/// Flags that hang together: what is seen of a surface is wider than a pixel, what noise changes is not.
-CameraMask together(const CameraMask& flags, const Rasters& cameras) {
-  CameraMask kept(flags.size(), 0);
-  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
-    const Size size = cameras.size(camera);
-    const std::size_t offset = cameras.offset(camera);
-    parallelFor(0, size.count(), 4096, [&](std::size_t i) {
-      if (!flags[offset + i]) return;
-      const Pixel at = pixelAt(size, i);
-      int beside = -1;  // it counts itself
-      for (int y = std::max(0, at.y - 1); y <= std::min(size.height - 1, at.y + 1); ++y)
-        for (int x = std::max(0, at.x - 1); x <= std::min(size.width - 1, at.x + 1); ++x)
-          beside += flags[offset + indexOf(size, {x, y})] ? 1 : 0;
-      kept[offset + i] = beside >= leastBeside ? 1 : 0;
-    });
-  }
-  return kept;
 }
 
 double sumOf(const Stack& values) {
@@ -230,29 +84,32 @@ class Renewing {
 
     Renewal renewal;
     renewal.errorBefore = errorOf(before->rows);
-    renewal.change.wrong = shareOf(wrongRows(*before), counted);
+    renewal.change.wrong = flaggedShareOf(wrongRows(*before), counted);
     Progress adapting = progress.part(
         adaptShare,
         RELUCENT_MESSAGE("stage.adapting-light-transport", "fitting the light transport to what is seen"));
-    unknown_.assign(counted.size(), 0);
-    TransportMatrix adapted = moved(renewal.change, references, tests, adapting);
-    adapted = nearAndFarFitted(scaled(renewal.change, adapted, references), references, tests);
+    FittedTransport adapted = fittedTransport(former_, references, tests, renewal.change, adapting);
+    unknown_ = std::move(adapted.unknown);
     auto fitted = comparedAgain(*before, renewal.change, adapted, counted, tests, adapting);
     if (!fitted) return fitted.interruption();
     const bool isBetter = renewal.errorBefore > 0.0 && errorOf(fitted->rows) < renewal.errorBefore;
-    if (!isBetter && !isLightOther(renewal.change)) {
+    if (!isBetter && !renewal.change.isOfLight()) {
       // Nothing that was thought of explains what is seen better than the former T does.
-      adapted = former_.transport;
+      adapted.transport = former_.transport;
       fitted = std::move(before);
       renewal.change.moved.assign(renewal.change.moved.size(), {});
       renewal.change.pictures = renewal.change.moved;
       unknown_.assign(counted.size(), 0);
     }
     renewal.errorAdapted = errorOf(fitted->rows);
-    renewal.change.unknown = shareOf(unknown_, references.usable);
+    renewal.change.unknown = flaggedShareOf(unknown_, references.usable);
 
-    VerifiedTransport verified{std::move(adapted), former_.leafVariance,  former_.flagged,
-                               fitted->residual,   errorOf(fitted->rows), 0};
+    VerifiedTransport verified{std::move(adapted.transport),
+                               former_.leafVariance,
+                               former_.flagged,
+                               fitted->residual,
+                               errorOf(fitted->rows),
+                               0};
     Progress measuring = progress.part(
         measureShare,
         RELUCENT_MESSAGE("stage.measuring-what-changed", "measuring what is no longer as it was"));
@@ -330,137 +187,26 @@ class Renewing {
     return all > 0.0 ? gained / all : 0.0;
   }
 
-  static bool isLightOther(const VenueChange& change) {
-    return change.scaled > 0.0 || std::ranges::any_of(change.light, [](const ColourBlock& light) {
-             return light != ColourBlock::Ones();
-           });
-  }
-
-  /// What was looked at moves in the floods and in the patterns; a picture that was moved in the patterns
-  /// alone. On an even surface both look alike, and are.
-  TransportMatrix moved(VenueChange& change, const photography::References& references,
-                        const TestPhotographs& tests, Progress& progress) {
-    const Rasters& cameras = references.cameras;
-    // Of many pixels few patterns tell enough; the first have blocks of all sizes.
-    const std::size_t patterns = std::min(
-        tests.patterns().size(), std::max<std::size_t>(verificationSizes, comparedPixels / cameras.count()));
-    std::vector<CameraStack> predicted;
-    for (std::size_t number = 0; number < patterns; ++number)
-      predicted.push_back(former_.transport.apply(tests.patterns()[number]));
-    const Floods floods = floodsOf(references);
-    change.moved.resize(cameras.devices());
-    change.pictures.resize(cameras.devices());
-    bool any = false;
-    for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
-      std::vector<sentinels::ViewPair> views{
-          {brightnessOf(former_.flood, cameras, camera), brightnessOf(floods.light, cameras, camera)}};
-      for (std::size_t i = 0; i < predicted.size(); ++i)
-        views.push_back({brightnessOf(predicted[i], cameras, camera),
-                         brightnessOf(tests.light()[i]->radiance, cameras, camera)});
-      const sentinels::Movement ofAll = sentinels::movementBetween(views);
-      progress.checkpoint();
-      if (!isMovement(ofAll, cameras.size(camera))) continue;
-      views.resize(1);
-      const sentinels::Movement ofSurface = sentinels::movementBetween(views);
-      const bool isCamera = isMovement(ofSurface, cameras.size(camera)) && areAlike(ofSurface, ofAll);
-      (isCamera ? change.moved : change.pictures)[camera] = ofAll;
-      any = true;
-    }
-    if (!any) return former_.transport;
-    std::vector<sentinels::Movement> views = change.moved;
-    for (std::size_t camera = 0; camera < views.size(); ++camera)
-      if (!views[camera].explains) views[camera] = change.pictures[camera];
-    transport::MovedRows rows = transport::movedRows(former_.transport, formerPlaces(views, cameras));
-    unknown_ = std::move(rows.unknown);
-    return transport::withSharedLeaves(rows.transport, transport::sharingTolerance, progress);
-  }
-
-  TransportMatrix scaled(VenueChange& change, const TransportMatrix& transport,
-                         const photography::References& references) {
-    const Roots then = rootsOf(transport);
-    for (std::size_t projector = 0; projector < then.size(); ++projector)
-      change.light.push_back(
-          lightLeft(then[projector], references.root[projector], references.usable, references.typical));
-    Roots factor(then.size(), std::vector<ColourBlock>(references.usable.size(), ColourBlock::Ones()));
-    CameraMask& own = ofItsOwn_;
-    own.assign(references.usable.size(), 0);
-    for (std::size_t projector = 0; projector < then.size(); ++projector)
-      parallelFor(0, own.size(), 1024, [&](std::size_t row) {
-        const ColourBlock expected = change.light[projector].cwiseProduct(then[projector][row]);
-        const Eigen::Array3f before = expected.rowwise().sum(),
-                             now = references.root[projector][row].rowwise().sum(),
-                             variance = references.rootVariance[projector][row].rowwise().sum();
-        ColourBlock left = ColourBlock::Ones();
-        for (Eigen::Index c = 0; c < 3; ++c) {
-          const float apart = std::abs(now[c] - before[c]);
-          if (!references.usable[row] || !(before[c] > enoughLight * references.typical) ||
-              apart < leastOwnChange * before[c] ||
-              static_cast<double>(apart) < ownSigmas * std::sqrt(static_cast<double>(variance[c])))
-            continue;
-          left.row(c) = leftOfChannels(references.root[projector][row].row(c),
-                                       references.rootVariance[projector][row].row(c), expected.row(c));
-          own[row] = 1;
-        }
-        factor[projector][row] = left.cwiseProduct(change.light[projector]);
-      });
-    own = together(own, references.cameras);
-    change.scaled = shareOf(own, references.usable);
-    if (!isLightOther(change)) return transport;
-    return transport.withLightScaled([&](std::size_t row, std::size_t projector) -> ColourBlock {
-      return own[row] ? factor[projector][row] : change.light[projector];
-    });
-  }
-
-  /// Where a surface has become another: what it scatters and what it mirrors changed by different shares.
-  TransportMatrix nearAndFarFitted(TransportMatrix transport, const photography::References& references,
-                                   const TestPhotographs& tests) const {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    if (std::ranges::count(ofItsOwn_, 1) == 0) return transport;
-    const Rasters& projectors = references.projectors;
-    std::vector<ProjectorStack> white(projectors.devices(), ProjectorStack(3 * projectors.count(), 0.0f));
-    std::vector<SeenPattern> seen;
-    for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
-      std::fill_n(white[projector].begin() + static_cast<std::ptrdiff_t>(3 * projectors.offset(projector)),
-                  3 * projectors.size(projector).count(), 1.0f);
-      seen.push_back({white[projector], [&references, projector](std::size_t value) -> SeenPattern::Light {
-                        const auto channel = static_cast<Eigen::Index>(value % 3);
-                        return {references.root[projector][value / 3].row(channel).sum(),
-                                references.rootVariance[projector][value / 3].row(channel).sum()};
-                      }});
-    }
-    for (std::size_t number = 0; number < tests.patterns().size(); ++number)
-      seen.push_back({tests.patterns()[number],
-                      [&light = *tests.light()[number]](std::size_t value) -> SeenPattern::Light {
-                        return {light.radiance[value], light.valid[value] ? light.variance[value] : infinity};
-                      }});
-    return acquisition::nearAndFarFitted(std::move(transport), ofItsOwn_, seen);
-  }
-
-  /// What test patterns say of the adapted T. Where neither a view nor a lamp has changed, they say of most
+  /// What test patterns say of the fitted T. Where neither a view nor a lamp has changed, they say of most
   /// rows what they said `before`.
-  sentinels::Interruptible<Verification> comparedAgain(const Verification& before, const VenueChange& change,
-                                                       const TransportMatrix& adapted,
-                                                       const CameraMask& counted, TestPhotographs& tests,
-                                                       Progress& progress) const {
+  static sentinels::Interruptible<Verification> comparedAgain(const Verification& before,
+                                                              const VenueChange& change,
+                                                              const FittedTransport& fitted,
+                                                              const CameraMask& counted,
+                                                              TestPhotographs& tests, Progress& progress) {
     const auto isMoved = [](const sentinels::Movement& movement) { return movement.explains; };
     const bool isOfSurfaces =
         std::ranges::none_of(change.moved, isMoved) && std::ranges::none_of(change.pictures, isMoved) &&
         std::ranges::all_of(change.light,
                             [](const ColourBlock& left) { return left == ColourBlock::Ones(); });
-    if (!isOfSurfaces) return tests.compared(adapted, counted, progress);
+    if (!isOfSurfaces) return tests.compared(fitted.transport, counted, progress);
     CameraMask rows = counted;
     for (std::size_t row = 0; row < rows.size(); ++row)
-      if (!ofItsOwn_[row]) rows[row] = 0;
-    auto found = tests.compared(adapted, rows, progress);
+      if (!fitted.ofItsOwn[row]) rows[row] = 0;
+    auto found = tests.compared(fitted.transport, rows, progress);
     if (!found) return found.interruption();
     Verification all = before;
-    for (std::size_t size = 0; size < all.residual.size(); ++size)
-      replaceRows(all.residual[size], found->residual[size], rows);
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      if (!rows[row]) continue;
-      all.rows[row] = found->rows[row];
-      all.flagged[row] = found->flagged[row];
-    }
+    replaceRows(all, *found, rows);
     return all;
   }
 
@@ -470,9 +216,10 @@ class Renewing {
     CameraMask wrong = wrongRows(fitted);
     for (std::size_t row = 0; row < wrong.size(); ++row)
       if (unknown_[row] && references.usable[row]) wrong[row] = 1;
-    const double share = shareOf(wrong, references.usable);
-    if (share < settings_.measuredFrom || (shareOf(unknown_, references.usable) < settings_.measuredFrom &&
-                                           errorOfWrong(fitted, wrong) < settings_.worthMeasuring))
+    const double share = flaggedShareOf(wrong, references.usable);
+    if (share < settings_.measuredFrom ||
+        (flaggedShareOf(unknown_, references.usable) < settings_.measuredFrom &&
+         errorOfWrong(fitted, wrong) < settings_.worthMeasuring))
       return CameraMask(wrong.size(), 0);
     if (share > settings_.allFrom) return references.usable;
     wrong = widened(wrong, references.cameras);
@@ -510,7 +257,7 @@ class Renewing {
                             (unknown_[row] || after->rows[row].relative() < before->rows[row].relative())
                         ? 1
                         : 0;
-    renewal.measured = shareOf(better, all.usable);
+    renewal.measured = flaggedShareOf(better, all.usable);
     const bool isAll = better == all.usable;
     verified.transport =
         isAll ? std::move(measured.transport) : mixedRows(verified.transport, measured.transport, better);
@@ -520,14 +267,12 @@ class Renewing {
     replaceRows(verified.leafVariance, measured.leafVariance, better);
     measuredRows_ = better;
     measuredFloods_ = std::move(measured.floods);
+    replaceRows(found, *before, rows);
+    replaceRows(found, *after, better);
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      if (rows[row]) verified.flagged[row] = found.flagged[row];
     for (std::size_t size = 0; size < verified.residual.size(); ++size)
-      replaceRows(verified.residual[size], after->residual[size], better);
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      if (!rows[row]) continue;
-      const Verification& now = better[row] ? *after : *before;
-      found.rows[row] = now.rows[row];
-      verified.flagged[row] = now.flagged[row];
-    }
+      replaceRows(verified.residual[size], found.residual[size], better);
     verified.remeasured = static_cast<int>(std::ranges::count(better, 1));
     verified.error = renewal.errorAfter = errorOf(found.rows);
     return std::nullopt;
@@ -593,7 +338,6 @@ class Renewing {
   photography::Photographer photographer_;
   AcquisitionSettings patterns_;
   CameraMask unknown_;
-  CameraMask ofItsOwn_;      // rows whose light has become another than that of all
   CameraMask measuredRows_;  // empty: none
   Floods measuredFloods_;
 };

@@ -1,25 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include "relucent/acquisition/acquisition.h"
-#include "relucent/sentinels/movement.h"
+#include "relucent/acquisition/venue_change.h"
 
 namespace relucent::acquisition {
-
-/// What has become of a venue since its T was measured.
-struct VenueChange {
-  std::vector<sentinels::Movement> moved;     // of every camera's view; zero: it looks where it looked
-  std::vector<sentinels::Movement> pictures;  // of the projectors' picture as every camera sees it, where
-                                              // what it falls on has not moved: projectors were
-  std::vector<transport::ColourBlock> light;  // of every projector: its channels' light as a share of what it
-                                              // was, in each of the cameras' channels
-  double ambient = 0.0;                       // change of e, as a share of the mean flood image
-  double wrong = 0.0;    // share of camera pixels that do not see what the former T predicts
-  double scaled = 0.0;   // share whose light is another than elsewhere, like repainted surfaces
-  double unknown = 0.0;  // share that sees what no camera saw before
-};
 
 /// A T that fits the venue as it is now.
 struct Renewal {
@@ -43,9 +28,7 @@ struct RenewalSettings {
 
 /// Makes T fit a venue that has changed, from as few photographs as that takes: black, floods and test
 /// patterns tell
-///  - whether a camera looks elsewhere: its rows are interpolated between the former ones (moved_rows.h);
-///  - what is left of the light: T_ij is multiplied value by value by what every projector's channels have
-///    become, R = median over rows (flood now / flood then), then each row by what it alone has become;
+///  - what became of views and light, which T is made to fit (fitted_transport.h);
 ///  - which rows are still wrong, beyond noise: these, and what no camera saw before, are measured by dense
 ///    patterns as if they were all there is, and replace the former ones where they predict further test
 ///    patterns better.

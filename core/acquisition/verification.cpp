@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "relucent/acquisition/mixed_rows.h"
 #include "relucent/acquisition/scheme.h"
 #include "relucent/base/parallel.h"
 #include "relucent/base/random.h"
@@ -221,6 +222,16 @@ double errorOf(const std::vector<Residual>& rows) {
     light += row.light;
   }
   return light > 0.0 ? std::sqrt(squared / light) : 0.0;
+}
+
+void replaceRows(Verification& into, const Verification& from, const CameraMask& chosen) {
+  for (std::size_t size = 0; size < into.residual.size(); ++size)
+    replaceRows(into.residual[size], from.residual[size], chosen);
+  for (std::size_t row = 0; row < chosen.size(); ++row) {
+    if (!chosen[row]) continue;
+    into.rows[row] = from.rows[row];
+    into.flagged[row] = from.flagged[row];
+  }
 }
 
 }  // namespace relucent::acquisition

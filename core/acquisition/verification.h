@@ -46,6 +46,9 @@ struct Verification {
       residual;  // per block size: root of the mean square of measured - predicted, radiance
 };
 
+/// What `from` found of the chosen camera pixels, in the place of what `into` did; not of the sums of all.
+void replaceRows(Verification& into, const Verification& from, const CameraMask& chosen);
+
 /// The light of a pattern, radiance less e. Whoever has photographed it keeps it, or not.
 using SeenLight = std::shared_ptr<const hdr::LampLight>;
 using LightSource = std::function<sentinels::Interruptible<SeenLight>(

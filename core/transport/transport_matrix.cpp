@@ -67,6 +67,24 @@ std::vector<ColourBlock> TransportMatrix::rowSums() const {
   return sums;
 }
 
+std::vector<std::vector<ColourBlock>> TransportMatrix::rowSumsOfProjectors() const {
+  const std::size_t devices = projectors().devices();
+  std::vector<std::vector<ColourBlock>> sums(devices,
+                                             std::vector<ColourBlock>(own_.rows(), ColourBlock::Zero()));
+  parallelFor(0, own_.rows(), 256, [&](std::size_t row_) {
+    const LeafRow leaves = row(row_);
+    const std::size_t kinds = leaves.colourings();
+    std::vector<Eigen::Array3f> factors(devices * kinds, Eigen::Array3f::Zero());
+    NodeCursor nodeAt(layout());
+    leaves.eachFactor([&](std::size_t entry, std::size_t k, const Eigen::Array3f& factor) {
+      factors[static_cast<std::size_t>(nodeAt(leaves.column(entry)).projector) * kinds + k] += factor;
+    });
+    for (std::size_t i = 0; i < factors.size(); ++i)
+      sums[i / kinds][row_] += leaves.colours(i % kinds) * factors[i].matrix().asDiagonal();
+  });
+  return sums;
+}
+
 TransportMatrix TransportMatrix::flattened() const {
   if (groups_.empty()) return *this;
   std::size_t leaves = 0;

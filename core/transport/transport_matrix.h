@@ -71,6 +71,8 @@ class TransportMatrix {
   CameraStack floodlight() const;
   /// 3x3 colour mixing of each camera pixel, the sum over its leaves.
   std::vector<ColourBlock> rowSums() const;
+  /// The same of every projector by itself: [projector][row].
+  std::vector<std::vector<ColourBlock>> rowSumsOfProjectors() const;
 
  private:
   TransportMatrix filteredSharing(const KeepLeaves& keep) const;

@@ -139,6 +139,19 @@ class TestLeafSharing : public QObject {
     for (std::size_t row = 0; row < sums.size(); ++row)
       QVERIFY((sums[row] - ofFlat[row]).cwiseAbs().maxCoeff() <=
               rounding * ofFlat[row].cwiseAbs().maxCoeff());
+    const std::vector<std::vector<ColourBlock>> ofProjectors = t.rowSumsOfProjectors();
+    for (std::size_t projector = 0; projector < t.projectors().devices(); ++projector)
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        ProjectorStack lit(3 * t.projectors().count(), 0.0f);
+        for (std::size_t pixel = 0; pixel < t.projectors().size(projector).count(); ++pixel)
+          lit[3 * (t.projectors().offset(projector) + pixel) + channel] = 1.0f;
+        const CameraStack seen = t.apply(lit);
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+          const float sum = ofProjectors[projector][i / 3](static_cast<Eigen::Index>(i % 3),
+                                                           static_cast<Eigen::Index>(channel));
+          QVERIFY(std::abs(sum - seen[i]) <= static_cast<float>(rounding * largestOf(seen)));
+        }
+      }
     QCOMPARE(statisticsOf(t).leaves, static_cast<std::uint64_t>(flat.storedLeaves()));
     QCOMPARE(statisticsOf(t).bytes, static_cast<std::uint64_t>(t.bytes()));
   }

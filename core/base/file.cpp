@@ -110,6 +110,14 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
   }
 }
 
+void syncFilesIn(const fs::path& folder) {
+  std::error_code code;
+  for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code))
+    checkSynced(platform::syncFile(entry->path()), entry->path());
+  if (code) failDisk(Action::write, folder, code);
+  checkSynced(platform::syncFolder(folder), folder);
+}
+
 void createFolder(const fs::path& path) {
   std::error_code code;
   fs::create_directories(path, code);

@@ -24,6 +24,9 @@ void writePrivateFileAtomically(const std::filesystem::path& path, std::string_v
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path& temporary)>& write);
 
+/// Returns when the files in a folder, and their names, are on the disk. Throws: Error{disk}.
+void syncFilesIn(const std::filesystem::path& folder);
+
 /// Creates a folder and its parents. Throws: Error{disk} with the reason.
 void createFolder(const std::filesystem::path& path);
 

@@ -13,6 +13,7 @@
 #include "relucent/base/utc.h"
 #include "relucent/calibration/json.h"
 #include "relucent/calibration/leftovers.h"
+#include "relucent/calibration/prepared_files.h"
 #include "relucent/calibration/results_json.h"
 #include "relucent/platform/files.h"
 
@@ -30,7 +31,8 @@ void removeLeftovers(const fs::path& folder, bool (*isLeftover)(const std::strin
   std::error_code ignored;
   std::vector<fs::path> leftovers;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    if (isLeftover(entry.path().filename().string())) leftovers.push_back(entry.path());
+    if (isLeftover(entry.path().filename().string()) && !isBeingPrepared(entry.path()))
+      leftovers.push_back(entry.path());
   for (const fs::path& path : leftovers) fs::remove_all(path, ignored);
 }
 
@@ -319,11 +321,9 @@ StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Jso
     try {
       createFolder(temporary);
       writeFiles(temporary);
-      for (const fs::directory_entry& entry : fs::directory_iterator(temporary)) {
-        checkSynced(platform::syncFile(entry.path()), entry.path());
+      syncFilesIn(temporary);
+      for (const fs::directory_entry& entry : fs::directory_iterator(temporary))
         files[entry.path().filename().string()] = entry.file_size();
-      }
-      checkSynced(platform::syncFolder(temporary), temporary);
       // A folder without an entry is what a program that died before its last step left: nobody reads it.
       fs::remove_all(results / name);
       fs::rename(temporary, results / name);

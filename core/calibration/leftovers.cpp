@@ -8,6 +8,7 @@
 #include "relucent/base/file.h"
 #include "relucent/base/parsed_json.h"
 #include "relucent/calibration/json.h"
+#include "relucent/calibration/prepared_files.h"
 #include "relucent/calibration/results_json.h"
 #include "relucent/calibration/shot_journal.h"
 
@@ -46,6 +47,7 @@ std::vector<fs::path> leftovers(const CalibrationFolder& folder) {
     const std::string name = entry.path().filename().string();
     const auto isOfStage = [&](Stage stage) { return name.starts_with(std::string(nameOf(stage)) + "-"); };
     const std::vector<Stage> stages = allValues<Stage>();
+    if (isBeingPrepared(entry.path())) continue;
     if (isResultLeftover(name) ||
         (std::ranges::any_of(stages, isOfStage) && entry.is_directory(code) && !named.contains(name)))
       found.push_back(entry.path());

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "relucent/base/error.h"
+#include "relucent/base/file.h"
 #include "relucent/calibration/message_json.h"
 #include "relucent/calibration/results_json.h"
 #include "relucent/image/exr.h"
@@ -235,9 +236,35 @@ void setRepairAside(CalibrationFolder& folder, const RepairNote& repair) {
   folder.setLatestAside(Stage::acquisition, settings ? &*settings : nullptr);
 }
 
+namespace {
+
+void writeAcquisition(const fs::path& path, const transport::Acquisition& acquisition) {
+  const Rasters& cameras = acquisition.transport.cameras();
+  transport::saveTransport(path / "transport.npz", acquisition.transport, transport::StoredValues::codes);
+  const auto measured = [&](const std::string& name, const CameraStack& stack, const char* units) {
+    image::writeStack(path, name, stack, cameras, units, image::ExrPacking::none);
+  };
+  measured("black", acquisition.black, radianceUnits);
+  measured("black-variance", acquisition.blackVariance, varianceUnits);
+  measured("flood", acquisition.flood, radianceUnits);
+  measured("flood-variance", acquisition.floodVariance, varianceUnits);
+  if (!acquisition.leafVariance.empty()) measured("leaf-variance", acquisition.leafVariance, varianceUnits);
+  for (std::size_t size = 0; size < acquisition.residual.size(); ++size)
+    measured(residualName(size), acquisition.residual[size], radianceUnits);
+  image::writeStack(path, "flagged", image::stackFromFlags(acquisition.flagged), cameras,
+                    "1 where verification failed");
+}
+
+}  // namespace
+
+void prepareAcquisition(const PreparedFiles& files, const transport::Acquisition& acquisition) {
+  writeAcquisition(files.folder(), acquisition);
+  syncFilesIn(files.folder());
+}
+
 StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
                              const transport::Acquisition& acquisition, const StageCost& cost,
-                             const std::optional<RepairNote>& repair) {
+                             const std::optional<RepairNote>& repair, const PreparedFiles* prepared) {
   const Rasters& cameras = acquisition.transport.cameras();
   Json values{{"cameras", toJson(cameras)},
               {"projectors", toJson(acquisition.transport.projectors())},
@@ -256,19 +283,10 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
   if (acquisition.changed) values["changed"] = toJson(*acquisition.changed);
   const std::optional<Json> settings = repair ? settingsWith(folder, repair->contentAfter) : std::nullopt;
   const auto writeFiles = [&](const fs::path& path) {
-    transport::saveTransport(path / "transport.npz", acquisition.transport, transport::StoredValues::codes);
-    const auto measured = [&](const std::string& name, const CameraStack& stack, const char* units) {
-      image::writeStack(path, name, stack, cameras, units, image::ExrPacking::none);
-    };
-    measured("black", acquisition.black, radianceUnits);
-    measured("black-variance", acquisition.blackVariance, varianceUnits);
-    measured("flood", acquisition.flood, radianceUnits);
-    measured("flood-variance", acquisition.floodVariance, varianceUnits);
-    if (!acquisition.leafVariance.empty()) measured("leaf-variance", acquisition.leafVariance, varianceUnits);
-    for (std::size_t size = 0; size < acquisition.residual.size(); ++size)
-      measured(residualName(size), acquisition.residual[size], radianceUnits);
-    image::writeStack(path, "flagged", image::stackFromFlags(acquisition.flagged), cameras,
-                      "1 where verification failed");
+    if (prepared != nullptr)
+      prepared->moveTo(path);
+    else
+      writeAcquisition(path, acquisition);
   };
   return folder.store(Stage::acquisition, inputs, values, writeFiles, settings ? &*settings : nullptr);
 }

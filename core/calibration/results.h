@@ -2,6 +2,7 @@
 #pragma once
 
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/calibration/prepared_files.h"
 #include "relucent/linearization/linearization.h"
 #include "relucent/transport/acquisition.h"
 
@@ -18,10 +19,14 @@ linearization::Linearization loadLinearization(const StageResult& result);
 
 /// transport.npz (the leaves, see transport/files.h), and per camera black, flood, their variances and the
 /// flags as OpenEXR; figures and findings in the manifest. `repair`: what it was made from, which then stays
-/// among the results, to go back to, and whose content is in the settings with it, in one step.
+/// among the results, to go back to, and whose content is in the settings with it, in one step. `prepared`:
+/// where prepareAcquisition() has written its files.
 StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
                              const transport::Acquisition& acquisition, const StageCost& cost,
-                             const std::optional<RepairNote>& repair = {});
+                             const std::optional<RepairNote>& repair = {},
+                             const PreparedFiles* prepared = nullptr);
+/// The files of an acquisition, before it is known whether it will be stored.
+void prepareAcquisition(const PreparedFiles& files, const transport::Acquisition& acquisition);
 /// The newest measurement is set aside, which a repair made, and content stands where it stood before that,
 /// unless somebody has changed it since; in one step.
 void setRepairAside(CalibrationFolder& folder, const RepairNote& repair);

@@ -10,8 +10,10 @@ namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* fileName = "windows.npz";
+
 fs::path fileIn(const calibration::CalibrationFolder& folder) {
-  return folder.path() / "results" / "windows.npz";
+  return folder.path() / "results" / fileName;
 }
 
 /// Of all that windows follow from.
@@ -34,6 +36,18 @@ void keepWindows(const calibration::CalibrationFolder& folder, const compensatio
     std::error_code isOld;  // as good as none: it has another key
     fs::remove(fileIn(folder), isOld);
   }
+}
+
+void prepareWindows(const calibration::PreparedFiles& files, const compensation::MeasuredVenue& venue,
+                    const inverse::WindowSettings& settings, const inverse::WindowInverse& windows) {
+  try {
+    inverse::saveWindows(files.folder() / fileName, windows, keyOf(venue, settings));
+  } catch (const DiskFull&) {  // NOLINT(bugprone-empty-catch): there is no file then, which says so
+  }
+}
+
+void keepWindows(const calibration::CalibrationFolder& folder, const calibration::PreparedFiles& files) {
+  files.moveTo(folder.path() / "results");
 }
 
 std::optional<inverse::WindowInverse> keptWindows(const calibration::CalibrationFolder& folder,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/calibration/prepared_files.h"
 #include "relucent/compensation/target.h"
 #include "relucent/inverse/windows.h"
 
@@ -16,6 +17,12 @@ namespace relucent::pipeline {
 /// reason.
 void keepWindows(const calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,
                  const inverse::WindowSettings& settings, const inverse::WindowInverse& windows);
+
+/// The same in two steps: written before it is known whether they will be those of the calibration, ...
+void prepareWindows(const calibration::PreparedFiles& files, const compensation::MeasuredVenue& venue,
+                    const inverse::WindowSettings& settings, const inverse::WindowInverse& windows);
+/// ... and put in their place, if there was room for them. Throws: Error{disk}.
+void keepWindows(const calibration::CalibrationFolder& folder, const calibration::PreparedFiles& files);
 
 /// As computeWindows() would make them of this venue, bit for bit. None: they are not there, or damaged.
 std::optional<inverse::WindowInverse> keptWindows(const calibration::CalibrationFolder& folder,

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 #include "relucent/base/stopwatch.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
@@ -143,6 +147,32 @@ double secondsOfDevices(const rig::ShotTimes& times) {
   return times.showing + times.capturing;
 }
 
+/// What a repair will store, on the disk before it is known whether it will.
+class Prepared {
+ public:
+  /// Keeps for store() what fails: where nothing is stored in the end, nothing has to be written.
+  Prepared(const fs::path& calibration, const transport::Acquisition& acquisition,
+           const MeasuredCalibration& now, const inverse::WindowSettings& windows) {
+    try {
+      calibration::prepareAcquisition(acquisition_.emplace(calibration), acquisition);
+      prepareWindows(windows_.emplace(calibration), now.venue, windows, now.inverse);
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+  }
+
+  void store(CalibrationFolder& folder, const std::string& inputs, const transport::Acquisition& acquisition,
+             const calibration::StageCost& cost, const calibration::RepairNote& note) const {
+    if (failure_) std::rethrow_exception(failure_);
+    calibration::storeAcquisition(folder, inputs, acquisition, cost, note, &acquisition_.value());
+    keepWindows(folder, windows_.value());
+  }
+
+ private:
+  std::optional<calibration::PreparedFiles> acquisition_, windows_;
+  std::exception_ptr failure_;
+};
+
 /// A calibration while it is repaired.
 class Repairing {
  public:
@@ -190,7 +220,7 @@ class Repairing {
       const MeasuredCalibration now = renewed(renewal.acquisition, proving);
       const image::Image shown = provedPicture(settings_, chosen_.content),
                          own = provedPicture({}, chosen_.content);
-      calibration::ContentResult predicted = prove(shown, now, result, proving);
+      calibration::ContentResult predicted = prove(shown, renewal.acquisition, now, result, proving);
       result.end = isBetter(result) ? RepairEnd::repaired : RepairEnd::notBetter;
       result.seconds = watch.seconds();
       if (result.end == RepairEnd::repaired) {
@@ -265,14 +295,17 @@ class Repairing {
 
   /// The same picture as a show has it by the former T and by the new one, both photographed and compared
   /// with what can be wanted, where it stood, under the light of now. Returns what is predicted of it.
-  calibration::ContentResult prove(const image::Image& content, const MeasuredCalibration& now,
-                                   RepairResult& result, Progress& progress) {
-    const compensation::Target target = targetOfNow(content, now, result.change);
-    const compensation::Compensation renewedPicture = solved(now, target, progress),
-                                     former = solved(
-                                         measured_,
-                                         fitTarget(content, measured_.venue, targetOf(chosen_.content)),
-                                         progress);
+  calibration::ContentResult prove(const image::Image& content, const transport::Acquisition& acquisition,
+                                   const MeasuredCalibration& now, RepairResult& result, Progress& progress) {
+    compensation::Target target;
+    compensation::Compensation renewedPicture, former;
+    const auto solvePictures = [&] {
+      target = targetOfNow(content, now, result.change);
+      renewedPicture = solved(now, target, progress);
+      former = solved(measured_, fitTarget(content, measured_.venue, targetOf(chosen_.content)), progress);
+    };
+    prepared_ = computeWhile(solvePictures,
+                             [&] { return std::make_unique<Prepared>(path_, acquisition, now, windows()); });
     ProjectionPhotographs photographs(source_.whole(), now, "repair-proof");
     const Rasters& cameras = now.venue.transport.cameras();
     const auto seen = [&](const compensation::Compensation& picture) {
@@ -321,8 +354,7 @@ class Repairing {
       note.predictedBefore = calibration::resultFrom<Stage::content>(*decided);
       note.predictedAfter = predicted;
     }
-    calibration::storeAcquisition(folder, inputs_, renewed, cost_, note);
-    keepWindows(folder, now.venue, windows(), now.inverse);
+    prepared_->store(folder, inputs_, renewed, cost_, note);
     // Somebody placed it, and it stands there: nobody has to look at it for that.
     if (decided) calibration::storeDecision(folder, predicted);
   }
@@ -336,6 +368,7 @@ class Repairing {
   transport::Acquisition former_;
   std::string formerFolder_, inputs_, correction_;
   calibration::StageCost cost_;
+  std::unique_ptr<Prepared> prepared_;
 };
 
 }  // namespace

@@ -23,8 +23,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int longest = 60'000;          // milliseconds
-constexpr double longestStoring = 30.0;  // of what is killed, milliseconds
+constexpr int longest = 60'000;  // milliseconds
+// Of what is killed, milliseconds: from when a repair's files are prepared until they have been stored.
+constexpr double longestStoring = 60.0;
 
 std::map<std::string, std::string> filesIn(const fs::path& folder) {
   std::map<std::string, std::string> files;
@@ -37,7 +38,7 @@ std::string correctionOf(const fs::path& calibration) {
   return fingerprintOfCorrection(CalibrationFolder::open(calibration, CalibrationFolder::Access::read));
 }
 
-/// A result is being written.
+/// A result is being prepared or stored.
 bool isBeingStored(const fs::path& calibration) {
   std::error_code code;
   for (const fs::directory_entry& entry : fs::directory_iterator(calibration / "results", code))

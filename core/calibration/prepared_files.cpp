@@ -3,15 +3,22 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <system_error>
 #include <vector>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/platform/process.h"
 
 namespace relucent::calibration {
 namespace fs = std::filesystem;
 namespace {
+
+/// Of the folders that this program makes.
+std::string ownPrefix() {
+  return fmt::format(".prepared-{}-", platform::processNumber());
+}
 
 [[noreturn]] void fail(const fs::path& path, const std::error_code& code) {
   throw Error(ErrorKind::disk,
@@ -26,7 +33,7 @@ fs::path newFolder(const fs::path& calibration) {
   const fs::path results = calibration / "results";
   createFolder(results);
   for (int number = 1;; ++number) {
-    fs::path folder = results / fmt::format(".prepared-{}.part", number);
+    fs::path folder = results / fmt::format("{}{}.part", ownPrefix(), number);
     std::error_code code;
     if (fs::create_directory(folder, code)) return folder;
     if (code) fail(folder, code);
@@ -62,7 +69,10 @@ void PreparedFiles::moveTo(const fs::path& folder) const {
 }
 
 bool isBeingPrepared(const fs::path& folder) {
-  if (!folder.filename().string().starts_with(".prepared-")) return false;
+  const std::string name = folder.filename().string();
+  if (!name.starts_with(".prepared-")) return false;
+  // Locks of network file systems do not hold against the program that has them.
+  if (name.starts_with(ownPrefix())) return true;
   try {
     platform::FolderLock(folder, platform::FolderLock::Kind::write);
     return false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "relucent/base/matrix_size.h"
 #include "relucent/base/parallel.h"
 
 namespace relucent::acquisition {
@@ -143,8 +144,8 @@ std::pair<Eigen::Array3f, Eigen::Array3f> DensePhotographs::Rows::shown(std::siz
 void DensePhotographs::Rows::read(std::size_t row, std::size_t heldOut, multiplexing::RowLight& seen) const {
   const photography::References& references = photographs_.references_;
   auto equations = static_cast<Eigen::Index>(3 * references.root.size() + photographs_.size());
-  seen.light.resize(equations, 3);
-  seen.variance.resize(equations, 3);
+  sizeTo(seen.light, equations, 3);
+  sizeTo(seen.variance, equations, 3);
   Eigen::Array3f unit = 1.0f / photographs_.flood(row);
   // What e is off by is the same in all of them; their own noise is the rest.
   Eigen::Array3f black =

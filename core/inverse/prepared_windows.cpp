@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "relucent/base/error.h"
+#include "relucent/base/matrix_size.h"
 #include "relucent/base/parallel.h"
 #include "relucent/base/signed_codes.h"
 #include "relucent/inverse/window_rows.h"
@@ -153,11 +154,13 @@ class WindowBuilder {
   void solveChannel(std::span<const std::uint32_t> rows, std::size_t channel, const Cholesky& cholesky,
                     Scratch& scratch) const {
     const Eigen::MatrixXf& columns = scratch.system.columns();
-    scratch.flood.resize(columns.rows());
+    sizeTo(scratch.flood, columns.rows());
     for (std::size_t k = 0; k < rows.size(); ++k)
       scratch.flood[static_cast<Eigen::Index>(k)] = near_.flood[rows[k]][channel];
+    sizeTo(scratch.weights, columns.rows(), columns.cols());
     scratch.weights = columns;
     cholesky.solveInPlace(scratch.weights);
+    sizeTo(scratch.white, columns.rows());
     scratch.white = scratch.flood;
     cholesky.solveInPlace(scratch.white);
     float white = scratch.flood.dot(scratch.white);

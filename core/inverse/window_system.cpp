@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "relucent/base/matrix_size.h"
+
 namespace relucent::inverse {
 namespace {
 
@@ -115,7 +117,8 @@ void WindowSystem::gatherBeyond() {
 /// T_W over the pixels of a region, from leaves of all levels.
 void WindowSystem::expand(const Region& region, std::size_t channel) {
   int width = region.size().width;
-  seen_.setZero(rows_, static_cast<Eigen::Index>(region.size().count()));
+  sizeTo(seen_, rows_, static_cast<Eigen::Index>(region.size().count()));
+  seen_.setZero();
   for (const Group& group : groups_) {
     if (group.place.projector != region.projector) continue;
     transport::Block block = intersection(region.block, layout_.block(group.place));
@@ -130,7 +133,8 @@ void WindowSystem::expand(const Region& region, std::size_t channel) {
 
 /// Light v even over n x n pixels is v / n^2 on each: its share of G is that of one column of v / n.
 void WindowSystem::expandBeyond(std::size_t channel) {
-  beyond_.setZero(rows_, static_cast<Eigen::Index>(areaSide_.size()));
+  sizeTo(beyond_, rows_, static_cast<Eigen::Index>(areaSide_.size()));
+  beyond_.setZero();
   for (const Group& group : groups_) {
     if (group.beyond < 0) continue;
     float side = areaSide_[static_cast<std::size_t>(group.beyond)];
@@ -140,10 +144,12 @@ void WindowSystem::expandBeyond(std::size_t channel) {
 }
 
 void WindowSystem::correlate(std::size_t channel) {
-  gram_.setZero(rows_, rows_);
+  sizeTo(gram_, rows_, rows_);
+  gram_.setZero();
   expandBeyond(channel);
   if (beyond_.cols() > 0) gram_.selfadjointView<Eigen::Lower>().rankUpdate(beyond_);
-  columns_.setZero(rows_, side_ * side_);
+  sizeTo(columns_, rows_, side_ * side_);
+  columns_.setZero();
   for (const Region& region : regions_) {
     expand(region, channel);
     gram_.selfadjointView<Eigen::Lower>().rankUpdate(seen_);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "relucent/base/error.h"
+#include "relucent/base/matrix_size.h"
 
 namespace relucent::multiplexing {
 namespace {
@@ -49,7 +50,8 @@ const RowFit& RowRegression::solve(Row& row, const RowLight& seen) {
   chooseDetails(row);
   gatherKinds(row);
 
-  system_.setZero(leaves_ + 1, stride(leaves_ + 1));
+  sizeTo(system_, leaves_ + 1, stride(leaves_ + 1));
+  system_.setZero();
   system_.diagonal().setOnes();
   for (Eigen::Index c = 0; c < 3; ++c) {
     fillColumns(row, seen, c);
@@ -70,6 +72,7 @@ const Eigen::ArrayX3f& RowRegression::predict() {
     kernels_.relight(designOf(j), static_cast<std::size_t>(light.rows()),
                      fit_.blocks[static_cast<std::size_t>(j)].data(),
                      {light.col(0).data(), light.col(1).data(), light.col(2).data()});
+  sizeTo(predictions_, equations_ - floods_, 3);
   predictions_ = light.middleRows(floods_, equations_ - floods_);
   return predictions_;
 }
@@ -81,7 +84,7 @@ std::array<const float*, 3> RowRegression::designOf(Eigen::Index leaf) const {
 void RowRegression::readDesign(const Row& row) {
   kinds_.resize(row.leaves.size());
   for (Columns& design : design_) {
-    design.resize(stride(equations_), leaves_);
+    sizeTo(design, stride(equations_), leaves_);
     design.bottomRows(design.rows() - equations_).setZero();
   }
   for (Eigen::Index j = 0; j < leaves_; ++j) {
@@ -139,8 +142,10 @@ void RowRegression::gatherKinds(const Row& row) {
   std::vector<std::uint8_t> detailed(row.leaves.size(), 0);
   for (Eigen::Index leaf : details_) detailed[static_cast<std::size_t>(leaf)] = 1;
   for (std::size_t k = 0; k < 3; ++k) {
-    known_[k].setZero(length, kinds);
-    lumped_[k].setZero(length, kinds);
+    for (Columns* sums : {&known_[k], &lumped_[k]}) {
+      sizeTo(*sums, length, kinds);
+      sums->setZero();
+    }
   }
   for (Eigen::Index j = 0; j < leaves_; ++j) {
     Eigen::Index kind = kinds_[static_cast<std::size_t>(j)];
@@ -157,8 +162,8 @@ void RowRegression::fillColumns(const Row& row, const RowLight& seen, Eigen::Ind
   Channel& channel = channels_[static_cast<std::size_t>(c)];
   Eigen::Index kinds = at(row.mixing.size());
   Eigen::Index colours = 3 * (at(details_.size()) + kinds) + 1;
-  channel.amplitude.resize(colours);
-  channel.columns.resize(stride(equations_), colours + leaves_ + 1);
+  sizeTo(channel.amplitude, colours);
+  sizeTo(channel.columns, stride(equations_), colours + leaves_ + 1);
   Columns& columns = channel.columns;
 
   // What was not seen weighs nothing, whatever its value.
@@ -207,7 +212,7 @@ void RowRegression::fillColumns(const Row& row, const RowLight& seen, Eigen::Ind
 void RowRegression::eliminateColours(Channel& channel) {
   Eigen::Index all = channel.columns.cols(), colours = channel.amplitude.size();
   Symmetric& system = channel.system;
-  system.resize(all, stride(all));
+  sizeTo(system, all, stride(all));
   kernels_.gram(channel.columns.data(), static_cast<std::size_t>(channel.columns.rows()),
                 static_cast<std::size_t>(all), system.data(), static_cast<std::size_t>(system.cols()));
   channel.known = 0.0;
@@ -223,8 +228,9 @@ void RowRegression::eliminateColours(Channel& channel) {
 void RowRegression::solveLight(Row& row) {
   auto width = static_cast<std::size_t>(system_.cols()), count = static_cast<std::size_t>(leaves_);
   kernels_.eliminate(system_.data(), width, count + 1, count);
-  inverse_.resize(leaves_, system_.cols());
+  sizeTo(inverse_, leaves_, system_.cols());
   kernels_.invert(system_.data(), width, count, inverse_.data());
+  sizeTo(light_, leaves_);
   light_ = system_.col(leaves_).head(leaves_);
   for (Eigen::Index j = leaves_ - 1; j >= 0; --j) {
     float known = system_.row(j).segment(j + 1, leaves_ - j - 1).dot(light_.tail(leaves_ - j - 1));
@@ -245,6 +251,7 @@ void RowRegression::solveLight(Row& row) {
 void RowRegression::findColours(Channel& channel) {
   const Symmetric& system = channel.system;
   Eigen::Index colours = channel.amplitude.size();
+  sizeTo(channel.colours, colours);
   channel.colours = system.col(colours + leaves_).head(colours);
   for (Eigen::Index i = colours - 1; i >= 0; --i) {
     float known = system.row(i).segment(i + 1, colours - i - 1).dot(channel.colours.tail(colours - i - 1)) +

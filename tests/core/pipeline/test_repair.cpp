@@ -6,6 +6,8 @@
 #include <QtTest>
 #include <cmath>
 #include <map>
+#include <set>
+#include <string>
 
 #include "relucent/base/error.h"
 #include "relucent/calibration/json.h"
@@ -119,6 +121,13 @@ class TestRepair : public QObject {
     const CalibrationFolder reading = CalibrationFolder::open(folder, CalibrationFolder::Access::read);
     return resultFrom<Stage::content>(*resultOf(reading, Stage::content));
   }
+  /// What lies in a calibration, by names.
+  static std::set<std::string> entriesOf(const fs::path& folder) {
+    std::set<std::string> entries;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+      entries.insert(fs::relative(entry.path(), folder).string());
+    return entries;
+  }
   static std::string correctionOf(const fs::path& folder) {
     return fingerprintOfCorrection(CalibrationFolder::open(folder, CalibrationFolder::Access::read));
   }
@@ -202,16 +211,19 @@ class TestRepair : public QObject {
     QVERIFY_THROWS_EXCEPTION(Error, undoRepair(folder));
   }
 
-  /// What photographs of a picture do not tell apart is not worth another measurement.
+  /// What photographs of a picture do not tell apart is not worth another measurement; what was written for
+  /// it is gone.
   void whatNobodySeesIsLeft() {
     const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "unseen");
     const std::string correction = correctionOf(folder);
+    const std::set<std::string> entries = entriesOf(folder);
     Changes changes;
     changes.lamps = {0.98, 0.98, 0.975};
     const RepairResult result = repairedAs(folder, "corner", changes);
     QCOMPARE(result.end, RepairEnd::notBetter);
     QVERIFY(!result.what.empty() && !result.after.empty());
     QCOMPARE(correctionOf(folder), correction);
+    QVERIFY(entriesOf(folder) == entries);
     QVERIFY_THROWS_EXCEPTION(Error, undoRepair(folder));
   }
 
@@ -443,9 +455,11 @@ class TestRepair : public QObject {
   void onlyOneMayChangeIt() {
     const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "shared");
     const std::string correction = correctionOf(folder);
+    const std::set<std::string> entries = entriesOf(folder);
     const CalibrationFolder reader = CalibrationFolder::open(folder, CalibrationFolder::Access::read);
     QVERIFY_THROWS_EXCEPTION(Error, repairedAs(folder, "corner", changesNamed("painted")));
     QCOMPARE(correctionOf(folder), correction);
+    QVERIFY(entriesOf(folder) == entries);
   }
 };
 

@@ -194,6 +194,16 @@ void ShadowTracker::followBorders(ShadowEvidence& evidence, double seconds) cons
     }
 }
 
+void ShadowTracker::freeRemnants(ShadowEvidence& evidence) const {
+  for (const std::vector<std::size_t>& part : connected(evidence.blocked())) {
+    if (part.size() >= settings_.least) continue;
+    const double before = evidence.misfit() + perCell * static_cast<double>(part.size());
+    for (std::size_t cell : part) evidence.set(cell, false);
+    if (evidence.misfit() - before < settings_.certain) continue;
+    for (std::size_t cell : part) evidence.set(cell, true);
+  }
+}
+
 void ShadowTracker::giveUp(const ShadowEvidence& evidence, double seconds) {
   for (const std::vector<std::size_t>& part : connected(filled_)) {
     const bool isExplained = evidence.explainedOf(within(part, evidence)) > stillExplained;
@@ -261,6 +271,7 @@ bool ShadowTracker::look(const Observed& seen, const Moment& moment, const Known
   evidence.assume(blocked_);
   search(evidence, seconds);
   followBorders(evidence, seconds);
+  freeRemnants(evidence);
   recognised_ = evidence.explained() > leastRecognised;
   if (!recognised_) {
     // Another camera's view, or a lamp that went out: no shadow is known in it.

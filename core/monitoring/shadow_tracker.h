@@ -77,6 +77,8 @@ class ShadowTracker {
   std::vector<std::size_t> take(const Hypothesis& hypothesis, ShadowEvidence& evidence) const;
   void search(ShadowEvidence& evidence, double seconds) const;
   void followBorders(ShadowEvidence& evidence, double seconds) const;
+  /// Cells that are left of a shadow, too few to be one, unless the photograph is sure of them.
+  void freeRemnants(ShadowEvidence& evidence) const;
   void giveUp(const ShadowEvidence& evidence, double seconds);
   void freeUnknown(const ShadowEvidence& evidence, double seconds);
   /// A cell that is blocked again soon after it was freed is not freed again as soon.

@@ -24,7 +24,7 @@ constexpr float mostLight = 1000.0f;
 // The photographs of a part that lie together on the disk.
 constexpr std::size_t photographsTogether = 64;
 // A part of one photograph: light, then its deviation, infinite where it was saturated.
-constexpr std::size_t valuesOfPart = 2 * 3 * DensePhotographs::rowsTogether;
+constexpr std::size_t valuesOfPart = DensePhotographs::rowsTogether * 3 * 2;
 
 }  // namespace
 

@@ -114,10 +114,10 @@ bool Judgement::addLamps(bool isSteady, const std::vector<Finding>& before, doub
   const auto lost = [](const Lasting& one) { return -one.median().value_or(0.0); };
   bool isDark = false;
   for (std::size_t j = 0; j < total_.size(); ++j) {
-    const auto passes = [&](const Lasting& one, std::optional<std::size_t> channel) {
+    const auto passes = [&](const Lasting& one, std::optional<std::size_t> channel, double allLost) {
       const bool wasTold = was(FindingKind::faded, j, channel, before);
       const double limit = (wasTold ? stays : isSteady ? 1.0 : whileMoved) * settings_.fade;
-      return one.median() && lost(one) > limit && lost(one) > certain * one.deviation() &&
+      return one.median() && lost(one) > allLost + limit && lost(one) > certain * one.deviation() &&
              one.holds(limit, -1);
     };
     const double all = lost(total_[j]);
@@ -127,9 +127,12 @@ bool Judgement::addLamps(bool isSteady, const std::vector<Finding>& before, doub
       if (total_[j].holds(settings_.dark, -1)) add({FindingKind::dark, j, {}, all}, before, seconds);
       continue;
     }
-    if (passes(total_[j], {})) add({FindingKind::faded, j, {}, all}, before, seconds);
+    if (passes(total_[j], {}, 0.0)) add({FindingKind::faded, j, {}, all}, before, seconds);
+    // What all channels lost is no channel's.
+    double least = 1.0;
+    for (std::size_t k = 0; k < 3; ++k) least = std::clamp(lost(gain_[3 * j + k]), 0.0, least);
     for (std::size_t k = 0; k < 3; ++k)
-      if (passes(gain_[3 * j + k], k) && lost(gain_[3 * j + k]) > all + 0.5 * settings_.fade)
+      if (passes(gain_[3 * j + k], k, least))
         add({FindingKind::faded, j, k, lost(gain_[3 * j + k])}, before, seconds);
   }
   return isDark;

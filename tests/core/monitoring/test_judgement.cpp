@@ -107,6 +107,33 @@ class TestJudgement : public QObject {
     QVERIFY2(toldAt <= 15 * interval + 60.0, qPrintable(QString::number(toldAt)));
   }
 
+  /// Law: a channel that lost more than the others is told, and what all have lost is no channel's.
+  void whatOneChannelLostIsToldOfIt_data() {
+    QTest::addColumn<QVector<double>>("lost");  // of red, green, blue
+    QTest::addColumn<int>("told");              // of these, or none
+    QTest::newRow("blue alone") << QVector<double>{0.0, 0.0, 0.05} << 2;
+    QTest::newRow("green alone") << QVector<double>{0.0, 0.05, 0.0} << 1;
+    QTest::newRow("red alone, the others seem brighter") << QVector<double>{0.05, -0.01, -0.01} << 0;
+    QTest::newRow("2 % of all, blue by more") << QVector<double>{0.018, 0.015, 0.045} << -1;
+    QTest::newRow("2 % of all") << QVector<double>{0.02, 0.02, 0.02} << -1;
+  }
+  void whatOneChannelLostIsToldOfIt() {
+    QFETCH(QVector<double>, lost);
+    QFETCH(int, told);
+    Judgement judgement(1, cells, {});
+    for (int number = 0; number < 15; ++number) {
+      Look look = asMeasured(static_cast<std::uint64_t>(number));
+      for (int k = 0; k < 3; ++k) {
+        look.light.gain[static_cast<std::size_t>(k)] -= lost[k];
+        look.light.total[0] -= lost[k] / 3.0;
+      }
+      judgement.add(look, interval * number);
+    }
+    QCOMPARE(judgement.findings().size(), told < 0 ? 0u : 1u);
+    if (told >= 0)
+      QCOMPARE(judgement.findings().front().channel, std::optional(static_cast<std::size_t>(told)));
+  }
+
   /// Law: visitors in one projector's light make its light uncertain, whatever the others' share of the view
   /// is, and no other's.
   void visitorsConcernTheProjectorInWhoseLightTheyStand_data() {

@@ -14,7 +14,7 @@ namespace {
 constexpr double stays = 0.7;       // of a limit: what was told stays until it is below this
 constexpr double alike = 0.2;       // visitors who follow each other take unlike shares of the light
 constexpr double whileMoved = 3.0;  // times as much must a lamp fade: a view that moved fits less well
-constexpr double certain = 2.5;     // deviations by which a limit's half must be passed
+constexpr double certain = 2.5;     // deviations by which something must be beyond what may be wrong of it
 
 void addTo(Lasting& lasting, Reference& reference, double seconds, double value, double deviation) {
   reference.add(seconds, value, deviation);
@@ -117,7 +117,9 @@ bool Judgement::addLamps(bool isSteady, const std::vector<Finding>& before, doub
     const auto passes = [&](const Lasting& one, std::optional<std::size_t> channel, double allLost) {
       const bool wasTold = was(FindingKind::faded, j, channel, before);
       const double limit = (wasTold ? stays : isSteady ? 1.0 : whileMoved) * settings_.fade;
-      return one.median() && lost(one) > allLost + limit && lost(one) > certain * one.deviation() &&
+      // What calibration has wrong may be as much again as the reference takes for that.
+      const double wrong = wasTold ? 0.0 : settings_.reference.most;
+      return one.median() && lost(one) > allLost + limit && lost(one) > wrong + certain * one.deviation() &&
              one.holds(limit, -1);
     };
     const double all = lost(total_[j]);

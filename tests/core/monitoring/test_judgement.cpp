@@ -85,6 +85,11 @@ class TestJudgement : public QObject {
       if (number >= 15) look.light.total[0] -= 0.05;
       if (number % 2 == 0) visit(look);
     });
+    row("a lamp that is 2 % weaker and seems to be 4 %, which photographs are not sure of", "",
+        [](int, Look& look) {
+          look.light.total[0] -= 0.04;
+          look.light.totalDeviation[0] = 0.013;
+        });
     row("a lamp that is 2 % weaker, and visitors for half a minute", "", [](int number, Look& look) {
       look.light.total[0] -= 0.02;
       if (number % 14 >= 5) visit(look);

@@ -67,7 +67,9 @@ class TestWindowProjector : public QObject {
     }));
     worker->start();
     if (meanwhile) meanwhile(*worker);
-    while (!worker->isFinished()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
+    QTimer wakes;
+    wakes.start(20);
+    while (!worker->isFinished()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
     worker->wait();
     return thrown;
   }

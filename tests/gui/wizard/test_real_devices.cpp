@@ -89,8 +89,10 @@ class TestRealDevices : public QObject {
     timer.start();
     worker->start();
     int gone = 0;
+    QTimer wakes;
+    wakes.start(20);
     while (!worker->isFinished()) {
-      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
+      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
       if (gone >= cycles || room_->photographs() - before < (gone + 1) * everyPhotographs) continue;
       ++gone;
       switchScreen(false);

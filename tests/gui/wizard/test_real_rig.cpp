@@ -200,8 +200,10 @@ class TestRealRig : public QObject {
     timer.start();
     const int before = room_->photographs();
     worker->start();
+    QTimer wakes;
+    wakes.start(20);
     while (!worker->isFinished()) {
-      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
+      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
       if (meanwhile) meanwhile(waiting);
     }
     worker->wait();

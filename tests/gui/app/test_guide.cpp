@@ -215,8 +215,9 @@ class TestGuide : public QObject {
       const QString page = evenSpaces(pages[i].text);
       for (const QString& quote : allOf("“([^”]+)”", english[i].text)) {
         QStringList said;
+        const QRegularExpression message = messageQuotedAs(quote);
         for (const TranslatedSentence& sentence : program)
-          if (const auto match = messageQuotedAs(quote).match(sentence.source); match.hasMatch())
+          if (const auto match = message.match(sentence.source); match.hasMatch())
             said << (language == "en" ? quote
                                       : beginningOf(sentence.forms.value(0), match.hasCaptured("more")));
         QVERIFY2(!said.isEmpty(), qPrintable(pages[i].id + ": the program never says " + quote));

@@ -32,7 +32,7 @@ struct ShadowSettings {
 ///  2. the one by which the photograph fits best is taken, the others are looked at again, until none is left
 ///     that makes it fit better by far; with it, what nothing is known of and what would be blocked besides
 ///     is free;
-///  3. cells along the borders follow, one by one.
+///  3. cells along the borders follow, one by one; what is left then, too little for a shadow, is free.
 /// A blocked cell whose light others can give goes dark; along the border of a shadow a little light is left,
 /// whose arrival tells that it has become smaller. Where the photographs that follow are not as expected, as
 /// of somebody who stands before the camera and in no light, all goes back.

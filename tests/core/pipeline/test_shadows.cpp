@@ -14,8 +14,8 @@ namespace {
 
 Progress quiet;
 constexpr double comes = 0.6, goes = 1.8;
-constexpr double taken =
-    0.2;  // seconds until the third photograph without him, by which nothing is held back
+// Seconds until the third photograph without him, by which nothing is held back.
+constexpr double taken = 0.2;
 
 ShadowRehearsalSettings settingsOf(const char* name) {
   ShadowRehearsalSettings settings;

@@ -11,6 +11,7 @@
 #include "gui/output/two_screens.h"
 #include "relucent/base/error.h"
 #include "support/screen_light.h"
+#include "support/waited.h"
 
 using namespace relucent;
 using namespace relucent::devices;
@@ -67,10 +68,7 @@ class TestWindowProjector : public QObject {
     }));
     worker->start();
     if (meanwhile) meanwhile(*worker);
-    QTimer wakes;
-    wakes.start(20);
-    while (!worker->isFinished()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
-    worker->wait();
+    waitFor(*worker);
     return thrown;
   }
   static WindowProjector made(std::function<void(bool)> waiting = {}, Size pixels = size) {

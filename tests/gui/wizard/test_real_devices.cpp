@@ -18,6 +18,7 @@
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/measuring.h"
 #include "support/own_network.h"
+#include "support/waited.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/frame/wizard.h"
@@ -89,11 +90,8 @@ class TestRealDevices : public QObject {
     timer.start();
     worker->start();
     int gone = 0;
-    QTimer wakes;
-    wakes.start(20);
-    while (!worker->isFinished()) {
-      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
-      if (gone >= cycles || room_->photographs() - before < (gone + 1) * everyPhotographs) continue;
+    waitFor(*worker, [&] {
+      if (gone >= cycles || room_->photographs() - before < (gone + 1) * everyPhotographs) return;
       ++gone;
       switchScreen(false);
       QTRY_VERIFY(waits || worker->isFinished());
@@ -104,8 +102,7 @@ class TestRealDevices : public QObject {
       switchScreen(true);
       // A camera that does not answer is given some seconds before it is connected again.
       QTRY_VERIFY_WITH_TIMEOUT(room_->photographs() > stopped || worker->isFinished(), 30000);
-    }
-    worker->wait();
+    });
     QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
     QVERIFY2(failure.empty(), failure.c_str());
     QCOMPARE(gone, cycles);

@@ -20,6 +20,7 @@
 #include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/standard_images.h"
 #include "support/sentences.h"
+#include "support/waited.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/frame/wizard.h"
@@ -200,13 +201,9 @@ class TestRealRig : public QObject {
     timer.start();
     const int before = room_->photographs();
     worker->start();
-    QTimer wakes;
-    wakes.start(20);
-    while (!worker->isFinished()) {
-      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    waitFor(*worker, [&] {
       if (meanwhile) meanwhile(waiting);
-    }
-    worker->wait();
+    });
     QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
     qInfo("%s: %d photographs in %.1f s", name.c_str(), room_->photographs() - before,
           1e-3 * static_cast<double>(timer.elapsed()));

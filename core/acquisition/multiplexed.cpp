@@ -62,7 +62,8 @@ class Measurement {
       }
       if (auto interrupted = solve(level, patterns, part)) return interrupted;
       tellDraft();
-      if ((isStopped_ = progress.stopAndKeep())) break;
+      isStopped_ = progress.stopAndKeep();
+      if (isStopped_) break;
       rows_.divide();
     }
     return confirm(progress);
@@ -143,7 +144,8 @@ std::optional<sentinels::Interruption> Measurement::take(int level, const std::v
                                                          Progress& part) {
   std::optional<sentinels::Interruption> disturbed;
   for (const Taken& what : wanted) {
-    if ((disturbed = photograph(what, photographed, part))) break;
+    disturbed = photograph(what, photographed, part);
+    if (disturbed) break;
     if (!what.again) told(level, what.number + 1, part);
   }
   std::vector<ProjectorStack> patterns;

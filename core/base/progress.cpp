@@ -49,7 +49,7 @@ bool Progress::stopAndKeep() const {
   return stop_ != nullptr && stop_->asked() == StopRequest::Kind::keep;
 }
 
-void Progress::preview(Preview preview) const {
+void Progress::preview(const Preview& preview) const {
   if (sink_ != nullptr) sink_->previewed(preview);
 }
 

@@ -82,7 +82,7 @@ class Progress {
   /// True if the user asked to stop and keep: the stage then ends early with a valid result.
   bool stopAndKeep() const;
 
-  void preview(Preview preview) const;
+  void preview(const Preview& preview) const;
   void expect(const WorkLeft& work) const;
   const Message& stage() const { return stage_; }
 

@@ -42,7 +42,7 @@ Digits digitsFrom(const Json& json) {
 std::optional<Argument> argumentFrom(const Json& json) {
   const auto first = json.items().begin();
   if (!json.is_object() || json.empty()) return std::nullopt;
-  const std::string kind = first.key();
+  const std::string& kind = first.key();
   const Json& value = first.value();
   if (kind == "count") return as::count(value.get<std::int64_t>());
   if (kind == "label") return as::label(value.get<std::int64_t>());

@@ -74,7 +74,7 @@ bool isBeingPrepared(const fs::path& folder) {
   // Locks of network file systems do not hold against the program that has them.
   if (name.starts_with(ownPrefix())) return true;
   try {
-    platform::FolderLock(folder, platform::FolderLock::Kind::write);
+    const platform::FolderLock lock(folder, platform::FolderLock::Kind::write);
     return false;
   } catch (const std::system_error& failure) {
     return failure.code() == std::errc::operation_would_block;

@@ -14,7 +14,7 @@ std::string hashOf(const Json& json) {
 
 /// What the stages after `stage` are given.
 std::string fingerprintOfResult(const CalibrationFolder& folder, Stage stage, const Json& settings) {
-  const std::string inputs = fingerprintOf(folder, stage, settings);
+  std::string inputs = fingerprintOf(folder, stage, settings);
   if (stage != Stage::acquisition) return inputs;
   const std::optional<StageResult> measured = folder.find(stage, inputs);
   if (!measured) {

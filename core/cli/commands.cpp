@@ -361,7 +361,7 @@ std::string interruptedSentence(const Command& command) {
 }
 
 int fail(const std::string& sentence, int status) {
-  std::cerr << "relucent-cli: " << forTerminal(sentence) << std::endl;
+  std::cerr << "relucent-cli: " << forTerminal(sentence) << '\n';
   return status;
 }
 

@@ -7,7 +7,7 @@
 
 namespace relucent::cli {
 
-void addNetworkOptions(CLI::App* sub, std::shared_ptr<NetworkOptions> options) {
+void addNetworkOptions(CLI::App* sub, const std::shared_ptr<NetworkOptions>& options) {
   addRepeated(
       sub, "--pjlink", [options](const std::string& text) { options->addresses.push_back(text); },
       "Where a projector is on the network, several times for several: it is switched on and waited for")

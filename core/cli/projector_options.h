@@ -9,6 +9,6 @@
 namespace relucent::cli {
 
 /// --pjlink, --pjlink-password-file and --warm-up.
-void addNetworkOptions(CLI::App* sub, std::shared_ptr<NetworkOptions> options);
+void addNetworkOptions(CLI::App* sub, const std::shared_ptr<NetworkOptions>& options);
 
 }  // namespace relucent::cli

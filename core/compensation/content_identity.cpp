@@ -52,7 +52,7 @@ image::Image onCanvas(const image::Image& picture, const ContentCanvas& canvas) 
   require(!picture.empty() && picture.channels() == 3, "a picture of {} channels", picture.channels());
   if (canvas.size.count() == 0 || canvas.size == picture.size()) return picture;
   const Size scaled = scaledSize(picture.size(), canvas);
-  const image::Image whole = image::resized(picture, scaled);
+  image::Image whole = image::resized(picture, scaled);
   if (scaled == canvas.size) return whole;
   const int left = (canvas.size.width - scaled.width) / 2, top = (canvas.size.height - scaled.height) / 2;
   image::Image result(canvas.size, 3);

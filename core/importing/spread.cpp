@@ -264,8 +264,9 @@ FootprintFitter::Fit FootprintFitter::fit(std::size_t cameraPixel, const Decoded
       state = next;
       damping *= 0.3f;
       if (last) break;
-    } else if ((damping *= 6.0f) > 1e3f) {
-      break;
+    } else {
+      damping *= 6.0f;
+      if (damping > 1e3f) break;
     }
   }
   if (!(state.direct + state.halo > 0.0f)) return {};

@@ -83,8 +83,10 @@ float typicalOf(std::vector<float> brightness) {
   std::sort(brightness.begin(), brightness.end());
   double half = 0.5 * std::accumulate(brightness.begin(), brightness.end(), 0.0);
   double sum = 0.0;
-  for (float value : brightness)
-    if ((sum += static_cast<double>(value)) >= half) return value;
+  for (float value : brightness) {
+    sum += static_cast<double>(value);
+    if (sum >= half) return value;
+  }
   return 0.0f;
 }
 

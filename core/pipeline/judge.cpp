@@ -186,8 +186,8 @@ compensation::Target UnseenPlaces::target(const compensation::Target& seen) cons
   return unseen;
 }
 
-UnseenPlaces::UnseenPlaces(const MeasuredCalibration& measured, venue::SimulatedVenue places)
-    : measured_(&measured), places_(std::make_unique<venue::SimulatedVenue>(std::move(places))) {
+UnseenPlaces::UnseenPlaces(const MeasuredCalibration& measured, const venue::SimulatedVenue& places)
+    : measured_(&measured), places_(std::make_unique<venue::SimulatedVenue>(places)) {
   const transport::TransportMatrix& truth = places_->trueTransport();
   judge_.emplace(measured, *places_, std::vector<reduction::Reduction>(), truth.cameras());
   // As a measurement would have it that is without noise.

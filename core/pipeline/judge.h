@@ -78,7 +78,7 @@ class UnseenPlaces {
   compensation::Target target(const compensation::Target& seen) const;
 
  private:
-  UnseenPlaces(const MeasuredCalibration& measured, venue::SimulatedVenue places);
+  UnseenPlaces(const MeasuredCalibration& measured, const venue::SimulatedVenue& places);
 
   const MeasuredCalibration* measured_;
   std::unique_ptr<venue::SimulatedVenue> places_;

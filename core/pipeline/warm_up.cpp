@@ -5,7 +5,7 @@
 
 namespace relucent::pipeline {
 
-ProjectorWarmUp::ProjectorWarmUp(NetworkProjectors projectors, const RigSettings& rig,
+ProjectorWarmUp::ProjectorWarmUp(const NetworkProjectors& projectors, const RigSettings& rig,
                                  pjlink::Waiting waiting)
     : warmUp_(projectors.addresses.empty() ? WarmUp::none : projectors.warmUp), waiting_(std::move(waiting)) {
   const std::vector<std::string> labels = projectorLabels(rig);

@@ -15,7 +15,7 @@ namespace relucent::pipeline {
 /// otherwise.
 class ProjectorWarmUp {
  public:
-  ProjectorWarmUp(NetworkProjectors projectors, const RigSettings& rig, pjlink::Waiting waiting = {});
+  ProjectorWarmUp(const NetworkProjectors& projectors, const RigSettings& rig, pjlink::Waiting waiting = {});
 
   /// Before the devices are opened: a screen may be gone while its projector is in standby.
   /// Throws: as pjlink::switchOn().

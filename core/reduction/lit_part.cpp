@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -52,22 +53,27 @@ double typicalOf(std::vector<float> brightness) {
   brightness.erase(brightness.begin(), dark);
   const double half = 0.5 * std::accumulate(brightness.begin(), brightness.end(), 0.0);
   double sum = 0.0;
-  for (float value : brightness)
-    if ((sum += static_cast<double>(value)) >= half) return static_cast<double>(value);
+  for (float value : brightness) {
+    sum += static_cast<double>(value);
+    if (sum >= half) return static_cast<double>(value);
+  }
   return 0.0;
 }
 
 /// From where to where `light` lies, but for a stray share at both ends: first and end.
 std::pair<int, int> extentOf(const std::vector<double>& light) {
   const double least = stray * std::accumulate(light.begin(), light.end(), 0.0);
-  auto skipped = [least](auto begin, auto end) {
+  auto skipped = [least](const auto& values) {
     int count = 0;
     double sum = 0.0;
-    for (auto at = begin; at != end && (sum += *at) <= least; ++at) ++count;
+    for (const double value : values) {
+      sum += value;
+      if (sum > least) break;
+      ++count;
+    }
     return count;
   };
-  return {skipped(light.begin(), light.end()),
-          static_cast<int>(light.size()) - skipped(light.rbegin(), light.rend())};
+  return {skipped(light), static_cast<int>(light.size()) - skipped(light | std::views::reverse)};
 }
 
 }  // namespace

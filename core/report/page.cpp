@@ -26,7 +26,7 @@ using Data = PageData;
 
 constexpr double deltaEScale = 20.0;     // right end of the error maps: far beyond what nobody could miss
 constexpr double leastReachable = 0.95;  // of a picture: the wizard places content so that more is in reach
-constexpr charts::Drawing chartDrawing{{470.0, 300.0}};
+const charts::Drawing chartDrawing{{470.0, 300.0}};
 
 double meanOf(const image::Image& values) {
   double sum = 0.0;

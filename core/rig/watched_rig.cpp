@@ -99,7 +99,7 @@ class WatchedCamera : public Camera {
 
 }  // namespace
 
-Rig watched(Rig rig, std::shared_ptr<RigWatcher> watcher) {
+Rig watched(Rig rig, const std::shared_ptr<RigWatcher>& watcher) {
   require(watcher != nullptr, "somebody has to watch");
   std::size_t count = rig.projectors.size();
   auto projectors = std::make_shared<Projectors>(std::exchange(rig.projectors, {}));

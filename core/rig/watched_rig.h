@@ -32,6 +32,6 @@ class RigWatcher {
 };
 
 /// Wraps the devices with a watcher. Frames are passed through unchanged.
-Rig watched(Rig rig, std::shared_ptr<RigWatcher> watcher);
+Rig watched(Rig rig, const std::shared_ptr<RigWatcher>& watcher);
 
 }  // namespace relucent::rig

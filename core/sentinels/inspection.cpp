@@ -481,8 +481,8 @@ double lightShare(const hdr::LampLight& seen, const ProjectorStack& pattern,
 std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {
   double power = lampPower(now, baseline.first, baseline.references);
   if (auto dark = inspectDarkness(now, baseline, power)) return dark;
-  const std::optional<Alarm> ambient = inspectAmbient(now, baseline);
-  const std::optional<Alarm> view = inspectView(now, baseline, power);
+  std::optional<Alarm> ambient = inspectAmbient(now, baseline);
+  std::optional<Alarm> view = inspectView(now, baseline, power);
   if (ambient && view && view->kind == AlarmKind::moved) return movedBesides(*view, *ambient);
   if (ambient) return ambient;  // light that came between the two pictures looks like a change of the view
   if (view) return view;

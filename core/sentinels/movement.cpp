@@ -43,9 +43,10 @@ double turnBetween(const cv::Mat& first, const cv::Mat& now) {
   int halfWidth = first.cols / 2, halfHeight = first.rows / 2;
   double across = 0.0, distance = 0.0;
   for (int quarter = 0; quarter < 4; ++quarter) {
-    cv::Rect part(quarter % 2 * halfWidth, quarter / 2 * halfHeight, halfWidth, halfHeight);
+    const int column = quarter % 2, line = quarter / 2;
+    cv::Rect part(column * halfWidth, line * halfHeight, halfWidth, halfHeight);
     cv::Point2d shift = shiftBetween(first(part), now(part));
-    double x = (quarter % 2 - 0.5) * halfWidth, y = (quarter / 2 - 0.5) * halfHeight;
+    double x = (column - 0.5) * halfWidth, y = (line - 0.5) * halfHeight;
     across += x * shift.y - y * shift.x;
     distance += x * x + y * y;
   }

@@ -27,7 +27,7 @@ constexpr std::uint64_t largestInt32 = std::numeric_limits<std::int32_t>::max();
 
 /// Writes integers in 32 bits where they all fit, else in 64.
 template <typename At>
-void addIndices(NpzWriter& writer, const std::string& name, std::uint64_t count, bool wide, At at) {
+void addIndices(NpzWriter& writer, const std::string& name, std::uint64_t count, bool wide, const At& at) {
   writer.add(name, {wide ? "<i8" : "<i4", {count}}, [=](std::uint64_t begin, std::uint64_t items, char* out) {
     for (std::uint64_t i = 0; i < items; ++i) {
       std::int64_t value = at(begin + i);
@@ -407,8 +407,8 @@ template <typename Load>
 auto withinMemory(const std::filesystem::path& path, const Load& load) {
   try {
     return load();
-  } catch (const std::bad_alloc&) {
-  } catch (const std::length_error&) {
+  } catch (const std::bad_alloc&) {     // said below
+  } catch (const std::length_error&) {  // more than any memory holds
   }
   throw Error(
       ErrorKind::memory,

@@ -118,7 +118,7 @@ void NpzWriter::add(const std::string& name, const std::vector<std::int64_t>& va
 
 void NpzWriter::addText(const std::string& name, const std::string& ascii) {
   add(name, NpyHeader{fmt::format("|S{}", ascii.size()), {}},
-      [ascii](std::uint64_t, std::uint64_t, char* out) { std::memcpy(out, ascii.data(), ascii.size()); });
+      [ascii](std::uint64_t, std::uint64_t, char* out) { std::ranges::copy(ascii, out); });
 }
 
 void NpzWriter::save(const std::filesystem::path& path) {

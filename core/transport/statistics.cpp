@@ -136,8 +136,8 @@ std::vector<double> squaredRowNorms(const TransportMatrix& transport, const Node
     std::vector<std::uint8_t> holds(nodes.pixels.size(), 0);
     for (std::size_t row = firstRow; row < lastRow; ++row) {
       const LeafRow leaves = transport.row(row);
-      for (std::size_t entry = leaves.size(); entry-- > 0 && leaves.column(entry) >= pixels;)
-        holds[leaves.column(entry)] = 1;
+      for (std::size_t end = leaves.size(); end > 0 && leaves.column(end - 1) >= pixels; --end)
+        holds[leaves.column(end - 1)] = 1;
       double own = 0.0, shared = 0.0;
       bool inside = false;
       std::uint32_t lastParent = std::numeric_limits<std::uint32_t>::max();
@@ -156,8 +156,8 @@ std::vector<double> squaredRowNorms(const TransportMatrix& transport, const Node
         if (nested) (*nested)[row] = 1;
         shared += sharedWithAncestors(leaves, nodes, entry, holds);
       }
-      for (std::size_t entry = leaves.size(); entry-- > 0 && leaves.column(entry) >= pixels;)
-        holds[leaves.column(entry)] = 0;
+      for (std::size_t end = leaves.size(); end > 0 && leaves.column(end - 1) >= pixels; --end)
+        holds[leaves.column(end - 1)] = 0;
       norms[row] = own + shared;
     }
   });

@@ -61,8 +61,8 @@ void move(Surface& surface, const Vector3f& by) {
 
 void paint(Scene& scene, const Vector3f& centre, const Painted& painted) {
   const auto radius = static_cast<float>(painted.radius);
-  const Array3f colour(static_cast<float>(painted.colour[0]), static_cast<float>(painted.colour[1]),
-                       static_cast<float>(painted.colour[2]));
+  Array3f colour(static_cast<float>(painted.colour[0]), static_cast<float>(painted.colour[1]),
+                 static_cast<float>(painted.colour[2]));
   for (Surface& surface : scene.surfaces) {
     if (surface.material.isGlass()) continue;
     surface.material.texture = [=, texture = surface.material.texture](const TexturePoint& point) -> Array3f {

@@ -171,7 +171,7 @@ compensation::Position positionFrom(const QString& text) {
 std::optional<NetworkPlace> placeOf(const QCommandLineParser& parser, const QCommandLineOption& port,
                                     const QCommandLineOption& address) {
   if (!parser.isSet(port)) return std::nullopt;
-  const NetworkPlace place{QHostAddress(parser.value(address)), parser.value(port).toUShort()};
+  NetworkPlace place{QHostAddress(parser.value(address)), parser.value(port).toUShort()};
   if (place.port == 0)
     throw WrongArguments(
         QString("the port of --%1 must be 1 to 65535").arg(port.names().first()).toStdString());

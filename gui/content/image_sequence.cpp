@@ -24,7 +24,7 @@ double checkedRate(double rate) {
       RELUCENT_ENGLISH_MESSAGE("content.choose-rate-in-range", "choose a rate above 0 and at most 240"));
 }
 
-const QStringList& checkedFiles(const QStringList& files) {
+QStringList checkedFiles(const QStringList& files) {
   if (!files.isEmpty()) return files;
   throw Error(
       ErrorKind::input, RELUCENT_MESSAGE("content.sequence-empty", "the sequence has no pictures"),

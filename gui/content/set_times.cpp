@@ -17,7 +17,7 @@ std::optional<QString> setAt(const QList<SetTime>& times, QTime now) {
 
 std::optional<SetTime> setTimeFrom(const QString& text) {
   const qsizetype equals = text.indexOf('=');
-  const SetTime time{QTime::fromString(text.left(equals).trimmed(), "H:mm"), text.mid(equals + 1)};
+  SetTime time{QTime::fromString(text.left(equals).trimmed(), "H:mm"), text.mid(equals + 1)};
   if (equals < 0 || !problems({time}).empty()) return std::nullopt;
   return time;
 }

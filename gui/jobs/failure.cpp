@@ -24,7 +24,7 @@ Failure failureOf(const Error& error) {
 
 Failure failureOf(std::exception_ptr thrown) {
   try {
-    std::rethrow_exception(thrown);
+    std::rethrow_exception(std::move(thrown));
   } catch (const devices::ScreenNotSeen& error) {
     Failure failure = failureOf(static_cast<const Error&>(error));
     failure.heading = Translated::tr("The camera does not see this projector");

@@ -146,7 +146,7 @@ QString shown(const QJsonValue& value) {
   if (value.isObject()) return table(value.toObject());
   if (value.isArray()) {
     QStringList parts;
-    for (const QJsonValue& part : value.toArray()) parts.append(shown(part));
+    for (const auto& part : value.toArray()) parts.append(shown(part));
     const bool isBlocks = !value.toArray().isEmpty() && value.toArray().first().isObject();
     return parts.join(isBlocks ? QString() : QString(", "));
   }

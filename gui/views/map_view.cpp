@@ -85,7 +85,7 @@ void MapView::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Down:
       return landscape_->turn(0.0, -degrees);
     default:
-      QWidget::keyPressEvent(event);
+      QWidget::keyPressEvent(event);  // NOLINT(bugprone-parent-virtual-call): the plane is not seen
   }
 }
 

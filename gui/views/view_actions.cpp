@@ -100,7 +100,7 @@ void saveView(PlaneView& view, const ViewValues& values, const QString& path) {
 }
 
 void addViewActions(Card& card, PlaneView& view, ViewValues values,
-                    std::function<void(const Failure&)> failed) {
+                    const std::function<void(const Failure&)>& failed) {
   QToolButton* fit = toolOf(Icon::fit, Translated::tr("Show everything"));
   QObject::connect(fit, &QToolButton::clicked, &view, [&view] { view.link().look(1.0, {0.5, 0.5}); });
   card.addAction(fit);

@@ -20,7 +20,7 @@ struct ViewValues {
 /// Adds buttons to a card's header: fit to view, full screen, save the visible picture as PNG or its values
 /// as OpenEXR. `failed` is called when saving fails.
 void addViewActions(Card& card, PlaneView& view, ViewValues values,
-                    std::function<void(const Failure&)> failed);
+                    const std::function<void(const Failure&)>& failed);
 
 /// One of several views in a card.
 struct ShownView {

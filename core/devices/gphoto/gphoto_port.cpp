@@ -250,7 +250,7 @@ class LibraryPort : public GphotoPort {
     }
     if (type != GP_WIDGET_TEXT && type != GP_WIDGET_RADIO && type != GP_WIDGET_MENU) return {};
     const char* value = nullptr;
-    gp_widget_get_value(widget, &value);
+    gp_widget_get_value(widget, static_cast<void*>(&value));
     return value != nullptr ? value : "";
   }
 

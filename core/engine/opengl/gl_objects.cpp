@@ -104,6 +104,7 @@ void GlBuffer::copyToTexture(GLuint texture, Size size, std::size_t begin) const
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, name_);
   glBindTexture(GL_TEXTURE_2D, texture);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                  // NOLINTNEXTLINE(performance-no-int-to-ptr): from the beginning of the buffer that is bound
                   reinterpret_cast<const void*>(begin));
   glBindTexture(GL_TEXTURE_2D, 0);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);

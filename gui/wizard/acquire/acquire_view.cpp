@@ -159,7 +159,7 @@ QString stageText(const AcquirePage& model) {
     return AcquirePage::tr("Reading the photographs of %n pattern(s): %1.", nullptr, read.expected)
         .arg(percentText(static_cast<double>(read.taken) / read.expected));
   }
-  const QString stage = model.stage();
+  QString stage = model.stage();
   const std::optional<double> seconds = model.secondsLeft();
   // Of what ends within a minute, minutes would say nothing.
   if (!seconds || model.isHeldUp() || model.isStopping() || isUnderAMinute(*seconds)) return stage;

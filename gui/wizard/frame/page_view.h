@@ -31,8 +31,8 @@ class NotYetSeen {
 };
 
 /// Refreshes now, and whenever one of these signals of the page comes.
-// NOLINTNEXTLINE(performance-unnecessary-value-param): a lambda may change what it holds
 template <typename Refresh, typename... Signals>
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a lambda may change what it holds
 void refreshOn(PageModel& page, QObject* context, Refresh refresh, Signals... signal) {
   {
     const NotYetSeen notYet(context);

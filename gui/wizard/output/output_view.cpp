@@ -44,7 +44,7 @@ class PlaybackCard : public Card {
   explicit PlaybackCard(OutputPage& page) : Card(OutputPage::tr("Playback")), page_(page) {
     auto* row = new QHBoxLayout;
     row->setSpacing(space::gap);
-    for (auto [readout, what] :
+    for (const auto& [readout, what] :
          {std::pair(&rate_, OutputPage::tr("frames a second")),
           std::pair(&time_, OutputPage::tr("frame time")), std::pair(&late_, OutputPage::tr("frames late")),
           std::pair(&live_, OutputPage::tr("arrival to light"))})
@@ -309,8 +309,8 @@ class OutputStage : public QWidget {
   QString takenText() const {
     if (!shown_) return {};
     const QString when = QLocale().toString(shown_->taken.time(), QLocale::ShortFormat);
-    const QString taken = page_.proof().isOutOfDate() ? OutputPage::tr("taken %1, out of date").arg(when)
-                                                      : OutputPage::tr("taken %1").arg(when);
+    QString taken = page_.proof().isOutOfDate() ? OutputPage::tr("taken %1, out of date").arg(when)
+                                                : OutputPage::tr("taken %1").arg(when);
     // Of what is out of date nobody has to read which picture it was: there is no room for both.
     if (shown_->picture.isEmpty() || page_.proof().isOutOfDate()) return taken;
     return QString("%1, %2").arg(taken, isolated(OutputPlaylist::nameOf(shown_->picture)));

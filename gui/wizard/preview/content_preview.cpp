@@ -25,7 +25,7 @@ std::shared_ptr<const image::Image> contentFor(const pipeline::ContentSettings& 
   if (!settings.picture.empty()) {
     try {
       return std::make_shared<image::Image>(linearContentOf(QString::fromStdString(settings.picture)));
-    } catch (const Error&) {
+    } catch (const Error&) {  // the list of pictures tells that it is gone
     }
   }
   return std::make_shared<image::Image>(linearContentOf(defaultPicture()));

@@ -245,7 +245,7 @@ void MaskView::focusInEvent(QFocusEvent* event) {
   const auto last = mask != nullptr ? static_cast<int>(mask->points.size()) - 1 : -1;
   if (mask != nullptr && event->reason() == Qt::TabFocusReason) activate(0);
   if (mask != nullptr && event->reason() == Qt::BacktabFocusReason) activate(last);
-  ImageView::focusInEvent(event);
+  ImageView::focusInEvent(event);  // NOLINT(bugprone-parent-virtual-call): corners are not what is seen
 }
 
 bool MaskView::focusNextPrevChild(bool next) {
@@ -254,7 +254,7 @@ bool MaskView::focusNextPrevChild(bool next) {
   const int to = point_ < 0 ? (next ? 0 : -2) : point_ + (next ? 1 : -1);
   if (to < 0 || to >= std::ssize(mask->points)) {
     activate(-1);
-    return ImageView::focusNextPrevChild(next);
+    return ImageView::focusNextPrevChild(next);  // NOLINT(bugprone-parent-virtual-call): as above
   }
   activate(to);
   return true;

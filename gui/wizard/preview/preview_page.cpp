@@ -71,7 +71,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
           },
           [this](const Failure& failure) { Q_EMIT failed({failure, tr("What is measured is safe.")}); }),
       reading_(
-          [this](std::pair<std::string, std::shared_ptr<const image::Image>> read) {
+          [this](const std::pair<std::string, std::shared_ptr<const image::Image>>& read) {
             adoptContent(read.first, read.second);
             pipeline::ContentSettings after = settings_;
             after.picture = read.first;

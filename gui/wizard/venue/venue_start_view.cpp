@@ -214,7 +214,7 @@ class StartStage : public QWidget {
     auto* column = new QVBoxLayout(middle);
     column->addStretch(1);
     column->addWidget(new IconLabel(Icon::house, secondaryColour, 48), 0, Qt::AlignHCenter);
-    for (auto [text, role] :
+    for (const auto& [text, role] :
          {std::pair(VenuePage::tr("No venues yet"), "heading"),
           std::pair(VenuePage::tr("The venues that you measure are listed here, newest first."), "secondary"),
           std::pair(VenuePage::tr("A first rehearsal takes a few minutes."), "secondary")}) {

@@ -114,6 +114,7 @@ class Tidy(unittest.TestCase):
         status, _, looked_at, _ = self.tidy()
         self.assertEqual((status, looked_at), (1, ["b"]))
 
+    @unittest.skipIf(shutil.which("git") is None, "git is not installed")
     def test_looks_first_at_what_was_changed_last(self):
         self.git("init")
         for name in ("c", "a", "b"):
